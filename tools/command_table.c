@@ -77,7 +77,7 @@ static const struct option decompose_options[] = {
     {"-o", "DIR|FILE",
      "write the pieces: an OFF file each, exact, one object each in FILE.obj, or a picture, FILE.png"},
     {"--method", "best|facets|walls",
-     "cut by planes of facets, by vertical walls through reflex edges first, or by what gives fewer pieces (best)"},
+     "cut by planes of facets, by sight walls, which are vertical, or by what gives fewer pieces (best)"},
     {"--pieces", "N", "at most N pieces, which contain the solid"},
     {"--tolerance", "T", "fewer pieces, which contain the solid and reach out of it by this length at most"},
     COMMON_OPTIONS,

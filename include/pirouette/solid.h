@@ -144,7 +144,7 @@ PIR_API void pir_solid_describe(const pir_solid *solid, pir_solid_info *ret_info
 typedef enum pir_decompose_method {
     PIR_DECOMPOSE_BEST,   /**< both ways; what gives fewer pieces counts, by facets where they give as many */
     PIR_DECOMPOSE_FACETS, /**< planes of facets: pieces have no planes but the solid's */
-    PIR_DECOMPOSE_WALLS   /**< vertical planes through reflex edges first (Hachenberger 2008) */
+    PIR_DECOMPOSE_WALLS   /**< sight walls of reflex edges, then walls beyond vertical ones (Hachenberger 2008) */
 } pir_decompose_method;
 
 /** How a solid is divided. */

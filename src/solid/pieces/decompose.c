@@ -10,11 +10,8 @@
  * inside of the cell with no fragment between. Otherwise the cell is cut by the plane of one of its fragments. A
  * cell without fragments is what a side of the cut was: below the fragment whose plane it was, inside.
  *
- * Which plane: one that resolves many creases, which is to hold them, and that cuts few fragments. By facets it is the
- * plane of one. By walls it is, while creases are left, a vertical plane through one, or the plane of a facet at a
- * vertical one (Hachenberger 2008: walls that points of reflex edges see up and down; here they end where the cell
- * does). On both sides of a plane that holds a crease some of the body is next to the crease, so a cell without
- * fragments there is inside.
+ * Which plane: that of a fragment which resolves many creases, which is to hold them, and which cuts few fragments. By
+ * sight walls a body is divided in sight_walls.c.
  *
  * A node's planes are counted once: a child whose fragments and creases are mostly the node's takes over its counts,
  * and changes them by what came and went. So O(n²) sides are asked in all where cuts take off little.
@@ -22,6 +19,7 @@
 #include "solid/pieces/decompose.h"
 
 #include "solid/pieces/plane_sides.h"
+#include "solid/pieces/sight_walls.h"
 #include "solid/space/polygons.h"
 
 struct node {
@@ -35,8 +33,6 @@ struct node {
 struct crease {
     uint32_t a, b;     /* points */
     uint32_t plane[2]; /* of its facets */
-    uint32_t wall[2];  /* half-spaces to cut by: twice the same where it is not vertical */
-    bool vertical;
 };
 
 /* A plane to cut by: what that does to the node whose choice it is. */
@@ -54,7 +50,6 @@ struct change {
 
 struct division {
     const pir_shell_body *body;
-    pir_decompose_method method;
     pir_space *space;
     pir_cells *cells;
     pir_piece_list *pieces;
@@ -152,34 +147,6 @@ static void count_fragment(struct division *d, struct choice *choice, uint32_t f
 
 static int64_t value_of(const struct choice *choice) {
     return choice->creases - choice->cut;
-}
-
-/* A wall's value in a node, or one that is not above `least`, as the wall's is not. */
-static int64_t value_of_wall(struct division *d, const struct node *node, uint32_t half, int64_t least) {
-    struct choice choice = {.half = half};
-    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++)
-        count_crease(d, &choice, &d->creases[i], 1);
-    for (uint32_t i = node->fragment; i < node->fragment + node->fragment_count && value_of(&choice) > least; i++)
-        count_fragment(d, &choice, d->list[i], 1);
-    return value_of(&choice);
-}
-
-/* The wall to cut by; none where no creases are left. Those of vertical creases come when no others are left. */
-static uint32_t choose_wall(struct division *d, const struct node *node) {
-    uint32_t best = PIR_SPACE_NONE;
-    int64_t value = INT64_MIN;
-    bool vertical = true;
-    for (uint32_t i = node->crease; i < node->crease + node->crease_count; i++)
-        vertical = vertical && d->creases[i].vertical;
-    for (uint32_t i = node->crease; i < node->crease + node->crease_count && d->space->status == PIR_OK; i++) {
-        const struct crease crease = d->creases[i];
-        for (int k = 0; k < 2 && crease.vertical == vertical; k++) {
-            const int64_t own = value_of_wall(d, node, crease.wall[k], value);
-            if (own > value)
-                value = own, best = crease.wall[k];
-        }
-    }
-    return best;
 }
 
 /* Lists the planes of a node, each once, as `from` has them, whose planes have been looked at; NULL: not counted. */
@@ -325,9 +292,8 @@ static void change_choices(struct division *d, const struct node *node, struct n
         }
 }
 
-/* `holds_crease`: the plane does, so that both sides are inside where they have no fragments. */
-static void cut_node(struct division *d, const struct node *node, uint32_t half, bool holds_crease) {
-    struct node child[2] = {{.inside = true}, {.inside = holds_crease}};
+static void cut_node(struct division *d, const struct node *node, uint32_t half) {
+    struct node child[2] = {{.inside = true}, {.inside = false}};
     const uint32_t first[2] = {d->space->point_count, d->polygons.count};
     uint32_t parts[2] = {0};
     pir_cells_cut(d->cells, node->cell, half, parts);
@@ -364,37 +330,15 @@ static void divide(struct division *d) {
         d->list_count = node.fragment + node.fragment_count;
         d->crease_count = node.crease + node.crease_count;
         d->choice_count = node.choice + node.choice_count;
-        const bool by_wall = d->method == PIR_DECOMPOSE_WALLS && node.crease_count > 0;
-        const uint32_t half = by_wall               ? choose_wall(d, &node)
-                              : node.fragment_count ? choose_plane(d, &node)
-                                                    : PIR_SPACE_NONE;
+        const uint32_t half = node.fragment_count ? choose_plane(d, &node) : PIR_SPACE_NONE;
         if (half != PIR_SPACE_NONE)
-            cut_node(d, &node, half, by_wall);
+            cut_node(d, &node, half);
         else if (node.fragment_count || node.inside)
             keep_piece(d, &node);
     }
 }
 
 /* --- the whole --- */
-
-/* The walls of a reflex edge. */
-static struct crease crease_at(struct division *d, const pir_shell_body_edge *edge, uint32_t up) {
-    const pir_shell_body *body = d->body;
-    const uint32_t left = body->plane[edge->left], right = body->plane[edge->right];
-    struct crease crease = {.a = edge->a, .b = edge->b, .plane = {left, right}};
-    if (d->method != PIR_DECOMPOSE_WALLS)
-        return crease;
-    const mpz_t *along = (const mpz_t *)d->space->number + d->space->direction[edge->direction].exact;
-    crease.vertical = mpz_sgn(along[0]) == 0 && mpz_sgn(along[1]) == 0;
-    crease.wall[0] = pir_half(left, false);
-    crease.wall[1] = pir_half(right, false);
-    if (!crease.vertical)
-        crease.wall[0] = crease.wall[1] =
-            pir_half(pir_space_add_plane(d->space, (const uint32_t[]){edge->direction, up}, false,
-                                         (const uint32_t[]){edge->a, PIR_SPACE_NONE}),
-                     false);
-    return crease;
-}
 
 static void begin(struct division *d) {
     const pir_shell_body *body = d->body;
@@ -409,7 +353,7 @@ static void begin(struct division *d) {
     for (uint32_t e = 0; e < body->edge_count; e++) {
         const pir_shell_body_edge *edge = &body->edge[e];
         if (edge->bend == PIR_BEND_REFLEX)
-            push_crease(d, crease_at(d, edge, d->polygons.axis[2]));
+            push_crease(d, (struct crease){edge->a, edge->b, {body->plane[edge->left], body->plane[edge->right]}});
     }
     root.fragment_count = d->list_count;
     root.crease_count = d->crease_count;
@@ -419,7 +363,11 @@ static void begin(struct division *d) {
 pir_status pir_decompose(const pir_shell_body *body, pir_decompose_method method, pir_cells *cells,
                          pir_piece_list *pieces) {
     pir_space *space = body->space;
-    struct division d = {.body = body, .method = method, .space = space, .cells = cells, .pieces = pieces};
+    struct division d = {.body = body, .space = space, .cells = cells, .pieces = pieces};
+    if (method == PIR_DECOMPOSE_WALLS) {
+        pir_decompose_by_sight(body, cells, pieces);
+        return space->status;
+    }
     pir_polygons_init(&d.polygons, space);
     pir_plane_sides_init(&d.sides, body, &d.polygons);
     begin(&d);
