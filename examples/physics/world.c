@@ -137,6 +137,7 @@ pir_status world_create(const struct world_options *options, struct world **ret_
         return PIR_ERR_MEMORY;
     world->options = *options;
     pir_scene_options scene = pir_scene_options_default();
+    scene.unions = true;
     world->options.margin = scene.margin = options->margin > 0 ? options->margin : MARGIN_LEAST;
     scene.threads = options->threads;
     pir_status status = pir_scene_create(&scene, &world->scene);

@@ -20,6 +20,13 @@
  * the deepest; a triangle that is met along several normals has an event for each. One all of whose contacts are ghosts
  * has an event without contacts, whose distance and normal are those of the triangle alone: do not push along it.
  *
+ * Convex pieces side by side are floors as well: prisms of one body, slabs in a row, pieces next to a mesh. With
+ * options.unions and PIR_SCENE_MANIFOLDS their contacts are without ghosts too. Pieces of bodies that do not move,
+ * their surfaces, and pieces of one moving body are asked together where their boxes meet, each as the surface that its
+ * facets make; of two moving bodies the one with more pieces is asked so. Contacts at walls between pieces of the body
+ * that asks are left out as well. An event then has the contacts of one normal with one piece; one whose contacts are
+ * all ghosts has none. Without it each two pieces have the contacts of their pair, whatever is beside them.
+ *
  * A pair needs one moving body, two bodies, and masks that match both ways: the category of each is in the mask of the
  * other. A sensor is told of what overlaps it, and has no contacts. Two sensors do not meet.
  *
@@ -85,6 +92,7 @@ typedef struct pir_scene_options {
     pir_scene_detail detail;
     double margin;          /**< ≥ 0: pieces apart by at most this are in contact too, for solvers; 0 for STATES */
     bool approach;          /**< whether events tell how fast the bodies approach */
+    bool unions;            /**< whether contacts of pieces side by side are without ghosts; see above */
     uint32_t threads;       /**< how many threads a call uses, that of the caller included; at least 1, at most 64 */
     const pir_tasks *tasks; /**< or NULL: threads of the scene's own; copied */
     /**
@@ -94,7 +102,7 @@ typedef struct pir_scene_options {
     pir_report *report;
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, no approach, one thread, no report. O(1). */
+/** malloc's memory, no budget, manifolds, no margin, no approach, no unions, one thread, no report. O(1). */
 static inline pir_scene_options pir_scene_options_default(void) {
     pir_scene_options options;
     memset(&options, 0, sizeof options);
@@ -241,8 +249,8 @@ typedef struct pir_scene_event {
     uint32_t piece_p, piece_q; /**< of the bodies' own */
     bool sensor;               /**< whether one of the bodies is a sensor */
     pir_state state;
-    /** Signed, as of pir_pair_signed_distance; with a triangle that of the deepest contact, or without contacts that of
-        the triangle alone. */
+    /** Signed, as of pir_pair_signed_distance; in a union that of the deepest contact, or without contacts that of the
+        two pieces alone. */
     double distance;
     pir_vec3 normal; /**< unit, from Q to P; of the same */
     pir_witness witness;

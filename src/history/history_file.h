@@ -13,7 +13,7 @@
  *     query      f64 translation[3], radius_p, radius_q, cutoff, margin
  *     pair       u32 p, q; u8 least, most
  *     ask        f64 rotation[4], translation[3] of P, of Q; radius_p, radius_q, cutoff, margin
- *     scene      u8 detail, approach; f64 margin
+ *     scene      u8 detail, approach + 2 · unions; f64 margin
  *     add        u8 kind, sensor; u32 category, mask; f64 radius, rotation[4], translation[3]; u32 count, pieces
  *     remove     u32 body
  *     update     u32 count; for each u32 body, f64 rotation[4], translation[3]

@@ -237,7 +237,7 @@ pir_status pir_history_scene(pir_history *history, const pir_scene_options *opti
     if (status != PIR_OK)
         return status;
     put(history, (uint64_t)used.detail, 1);
-    put(history, used.approach != 0, 1);
+    put(history, (used.approach ? 1u : 0u) | (used.unions ? 2u : 0u), 1);
     put_double(history, used.margin);
     return PIR_OK;
 }

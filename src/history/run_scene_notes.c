@@ -10,7 +10,9 @@ pir_status pir_replay_scene(pir_replay *replay) {
     pir_scene_options options = pir_scene_options_default();
     options.allocator = &replay->allocator;
     options.detail = (pir_scene_detail)pir_history_take(reader, 1);
-    options.approach = pir_history_take(reader, 1) != 0;
+    const uint64_t told = pir_history_take(reader, 1);
+    options.approach = (told & 1) != 0;
+    options.unions = (told & 2) != 0;
     options.margin = pir_history_take_double(reader);
     if (options.detail > PIR_SCENE_MANIFOLDS)
         reader->broken = true;

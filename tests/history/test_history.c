@@ -165,6 +165,7 @@ static void note_scene(pir_history *history, struct told *right) {
     pir_scene_move moves[BODIES];
     pir_scene *scene;
     options.margin = 0.125;
+    options.unions = true;
     assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
     assert_int_equal(pir_history_scene(history, &options), PIR_OK);
     right->hash[right->count++] = PIR_HASH_START;

@@ -51,14 +51,13 @@ void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t c
         memcpy(item, from, count * sizeof *item);
 }
 
-/* Lists what a worker found: of pairs with surfaces only what was found of their contacts. The count of all. */
-static uint32_t list_found(pir_scene *scene, const pir_scene_worker *worker, const pir_scene_found *found,
-                           uint32_t of_found, uint32_t count) {
-    for (uint32_t i = 0; i < of_found; i++) {
-        const uint32_t pair = found[i].pair;
-        if (found == worker->on_surface || !pir_scene_is_with_surface(scene, pair))
-            scene->lists.item[count++] = (pir_scene_item){pir_scene_key_of(scene, pair), worker, &found[i], pair};
-    }
+/* Lists what a worker found, but for what a union has in its place. The count of all. */
+static uint32_t list_found(pir_scene *scene, const pir_scene_worker *worker, pir_scene_found *found, uint32_t of_found,
+                           uint32_t count) {
+    for (uint32_t i = 0; i < of_found; i++)
+        if (found == worker->on_surface || !found[i].in_union)
+            scene->lists.item[count++] =
+                (pir_scene_item){pir_scene_key_of(scene, found[i].pair), worker, &found[i], found[i].pair, 0};
     return count;
 }
 
@@ -73,7 +72,7 @@ static uint32_t list_items(pir_scene *scene) {
     }
     for (uint32_t i = 0; i < lists->ended_count; i++) {
         uint32_t pair = lists->ended[i];
-        lists->item[count++] = (pir_scene_item){pir_scene_key_of(scene, pair), NULL, NULL, pair};
+        lists->item[count++] = (pir_scene_item){pir_scene_key_of(scene, pair), NULL, NULL, pair, 0};
     }
     return count;
 }

@@ -77,7 +77,7 @@ static pir_status answer(pir_scene *scene) {
     if (status != PIR_OK)
         return pir_fail(scene->report, status, "update: its pairs: %s", pir_status_text(status));
     status = pir_scene_ask(scene);
-    if (status == PIR_OK && scene->bodies.triangle_count > 0)
+    if (status == PIR_OK && (scene->unions || scene->bodies.triangle_count > 0))
         status = pir_scene_find_surface_contacts(scene);
     if (status != PIR_OK)
         return status;

@@ -6,13 +6,16 @@
 #include "scene/answer/surface_contacts.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include <pirouette/trimesh_contact.h>
 
 #include "mesh/contact/contact_job.h"
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
+#include "scene/answer/unions.h"
 #include "scene/world/grow.h"
+#include "scene/world/piece_facets.h"
 
 /* How many pieces are worth another thread. */
 #define WORTH_MORE 16
@@ -28,13 +31,15 @@ bool pir_scene_is_with_surface(const pir_scene *scene, uint32_t pair) {
     return with && scene->detail == PIR_SCENE_MANIFOLDS && !p->sensor && !q->sensor;
 }
 
-/* A piece, and what it is in contact with: items whose keys hold its number, the body's of a surface and a triangle. */
+/* A piece, and the parts of unions that it is in contact with. */
 struct touched {
     pir_scene *scene;
     pir_scene_worker *worker;
-    const pir_scene_item *item;
+    pir_scene_item *item;
     uint32_t count;
-    double radius;        /* of the surfaces at hand: each radius is a union of its own */
+    uint32_t group;       /* the union at hand */
+    double radius;        /* of its bodies */
+    uint32_t surfaces;    /* of the question: those of bodies, before the facets of pieces */
     uint32_t first_found; /* of the worker's */
 };
 
@@ -42,40 +47,83 @@ static uint32_t body_of(const pir_scene_item *item) {
     return (uint32_t)(item->key.pieces >> 32);
 }
 
-static double radius_of(const struct touched *touched, uint32_t i) {
-    return touched->scene->bodies.body[body_of(&touched->item[i])].radius;
+static const pir_scene_body *body_at(const struct touched *touched, uint32_t i) {
+    return &touched->scene->bodies.body[body_of(&touched->item[i])];
 }
 
-/* Lists the surfaces of the radius at hand, each once. */
-static pir_status list_surfaces(const struct touched *touched, uint32_t *ret_count) {
+static const pir_scene_piece *part_at(const struct touched *touched, uint32_t i) {
+    return pir_scene_union_part(touched->scene, &touched->item[i]);
+}
+
+static bool is_at_hand(const struct touched *touched, uint32_t i) {
+    return touched->item[i].group == touched->group;
+}
+
+static bool is_triangle(const struct touched *touched, uint32_t i) {
+    return part_at(touched, i)->kind == PIR_PIECE_TRIANGLE;
+}
+
+static bool list_surface(const struct touched *touched, uint32_t count, pir_surface_ref surface, pir_pose pose) {
+    pir_scene_worker *worker = touched->worker;
+    if (!PIR_GROW(&touched->scene->allocator, worker->surface, worker->surface_capacity, count + 1))
+        return false;
+    worker->surface[count] = (pir_posed_surface){surface, pose};
+    return true;
+}
+
+/* Lists the surfaces of the union, each once, then the facets of its pieces; their number, 0 when out of memory. */
+static uint32_t list_surfaces(struct touched *touched) {
+    uint32_t count = 0, last = UINT32_MAX;
+    bool good = true;
+    for (uint32_t i = 0; i < touched->count && good; i++) {
+        if (!is_at_hand(touched, i) || !is_triangle(touched, i) || body_of(&touched->item[i]) == last)
+            continue;
+        last = body_of(&touched->item[i]);
+        good = list_surface(touched, count++, pir_body_surface_of(body_at(touched, i)), body_at(touched, i)->pose);
+    }
+    touched->surfaces = count;
+    for (uint32_t i = 0; i < touched->count && good; i++)
+        if (is_at_hand(touched, i) && !is_triangle(touched, i))
+            good = list_surface(touched, count++, (pir_surface_ref){part_at(touched, i)->facets, NULL},
+                                body_at(touched, i)->pose);
+    return good ? count : 0;
+}
+
+/* Lists the other pieces of the body whose boxes meet that of the piece; false when out of memory. */
+static bool list_beside(const struct touched *touched, const pir_scene_piece *piece, uint32_t *ret_count) {
+    const pir_scene *scene = touched->scene;
     pir_scene_worker *worker = touched->worker;
     *ret_count = 0;
-    for (uint32_t i = 0; i < touched->count; i++) {
-        const pir_scene_body *body = &touched->scene->bodies.body[body_of(&touched->item[i])];
-        if ((i > 0 && body_of(&touched->item[i]) == body_of(&touched->item[i - 1])) || body->radius != touched->radius)
+    for (uint32_t i = scene->bodies.body[piece->body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
+        const pir_scene_piece *other = &scene->bodies.piece[i];
+        if (other == piece || !pir_box_meets(&other->tight, &piece->tight))
             continue;
-        if (!PIR_GROW(&touched->scene->allocator, worker->surface, worker->surface_capacity, *ret_count + 1))
-            return PIR_ERR_MEMORY;
-        worker->surface[(*ret_count)++] = (pir_posed_surface){pir_body_surface_of(body), body->pose};
+        if (!PIR_GROW(&scene->allocator, worker->beside, worker->beside_capacity, *ret_count + 1))
+            return false;
+        worker->beside[(*ret_count)++] = other->extent.polytope;
     }
-    return PIR_OK;
+    return true;
 }
 
-/* The contacts of the piece with these, in worker->met. */
-static pir_status ask(const struct touched *touched, uint32_t *ret_count) {
+/* The contacts of the piece with the union, in worker->met; *ret_near is whether any, ghosts included, was near. */
+static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_near) {
     const pir_scene *scene = touched->scene;
     pir_scene_worker *worker = touched->worker;
     const pir_scene_piece *piece = &scene->bodies.piece[touched->item[0].key.bodies];
     const pir_scene_body *body = &scene->bodies.body[piece->body];
     pir_surface_contact_input input = pir_surface_contact_input_default();
     pir_surface_contact_result result = {.contacts = 0};
-    uint32_t surfaces, room = 0;
-    pir_status status = list_surfaces(touched, &surfaces);
+    uint32_t room = 0, beside;
+    input.surface_count = list_surfaces(touched);
+    if (input.surface_count == 0 || !list_beside(touched, piece, &beside))
+        return PIR_ERR_MEMORY;
     input.pose = body->pose;
     input.radius = body->radius + touched->radius;
     input.margin = scene->margin;
     input.surfaces = worker->surface;
-    input.surface_count = surfaces;
+    input.beside = worker->beside;
+    input.beside_count = beside;
+    pir_status status = PIR_OK;
     // as many as there is room for may not be all
     while (status == PIR_OK && result.contacts == room) {
         room = room > 0 ? 2 * room : CONTACTS;
@@ -84,33 +132,43 @@ static pir_status ask(const struct touched *touched, uint32_t *ret_count) {
         status = pir_surface_contacts(piece->extent.polytope, worker->workspace, &input, room, worker->met, &result);
     }
     *ret_count = (uint32_t)result.contacts;
+    *ret_near = result.counts.near > 0;
     return status;
 }
 
-static bool is_same_normal(const pir_surface_contact *a, const pir_surface_contact *b) {
-    return a->normal.x == b->normal.x && a->normal.y == b->normal.y && a->normal.z == b->normal.z;
+/* Whether two contacts stand in one event: those of one normal, with surfaces or with one and the same piece. */
+static bool is_one_event(const struct touched *touched, const pir_surface_contact *a, const pir_surface_contact *b) {
+    const bool on_surfaces = a->surface < touched->surfaces && b->surface < touched->surfaces;
+    return a->normal.x == b->normal.x && a->normal.y == b->normal.y && a->normal.z == b->normal.z &&
+           (on_surfaces || a->surface == b->surface);
 }
 
-/* The item of a contact's triangle, or NULL. */
-static const pir_scene_item *item_of(const struct touched *touched, const pir_surface_contact *contact) {
+/* The item of a contact's triangle or piece, or NULL. */
+static pir_scene_item *item_of(const struct touched *touched, const pir_surface_contact *contact) {
     const pir_posed_surface *surface = &touched->worker->surface[contact->surface];
     for (uint32_t i = 0; i < touched->count; i++) {
-        const pir_surface_ref of = pir_body_surface_of(&touched->scene->bodies.body[body_of(&touched->item[i])]);
-        const pir_pose *pose = &touched->scene->bodies.body[body_of(&touched->item[i])].pose;
-        if ((uint32_t)touched->item[i].key.pieces == contact->triangle && of.mesh == surface->surface.mesh &&
-            of.field == surface->surface.field && memcmp(pose, &surface->pose, sizeof *pose) == 0)
+        const pir_scene_body *body = body_at(touched, i);
+        if (!is_at_hand(touched, i) || memcmp(&body->pose, &surface->pose, sizeof body->pose) != 0)
+            continue;
+        const pir_surface_ref of = pir_body_surface_of(body);
+        const bool same = contact->surface < touched->surfaces
+                              ? (uint32_t)touched->item[i].key.pieces == contact->triangle &&
+                                    of.mesh == surface->surface.mesh && of.field == surface->surface.field
+                              : part_at(touched, i)->facets == surface->surface.mesh;
+        if (same)
             return &touched->item[i];
     }
     return NULL;
 }
 
 /* A copy of an item's record in the worker's own list. */
-static pir_scene_found *add_found(const struct touched *touched, const pir_scene_item *item) {
+static pir_scene_found *add_found(const struct touched *touched, pir_scene_item *item) {
     pir_scene_worker *worker = touched->worker;
     if (!PIR_GROW(&touched->scene->allocator, worker->on_surface, worker->on_surface_capacity,
                   worker->on_surface_count + 1))
         return NULL;
     pir_scene_found *found = &worker->on_surface[worker->on_surface_count++];
+    item->found->in_union = true;
     *found = *item->found;
     found->first = worker->contact_count;
     found->count = 0;
@@ -135,33 +193,47 @@ static bool add_contact(const struct touched *touched, pir_scene_found *found, c
     return true;
 }
 
-/* Whether a contact of this normal comes before contact `i`. */
-static bool comes_again(const pir_surface_contact *met, uint32_t i) {
+/* Whether a contact before contact `i` stands in its event. */
+static bool comes_again(const struct touched *touched, uint32_t i) {
+    const pir_surface_contact *met = touched->worker->met;
     for (uint32_t k = 0; k < i; k++)
-        if (is_same_normal(&met[k], &met[i]))
+        if (is_one_event(touched, &met[k], &met[i]))
             return true;
     return false;
 }
 
-/* All contacts of the normal of contact `i`, the first of its normal, with the first triangle that is in contact. */
-static pir_status take_normal(const struct touched *touched, uint32_t i, uint32_t count) {
+/* The first triangle of the union. */
+static pir_scene_item *first_triangle(const struct touched *touched) {
+    uint32_t i = 0;
+    while (!is_at_hand(touched, i) || !is_triangle(touched, i))
+        i++;
+    return &touched->item[i];
+}
+
+/* All contacts of the event of contact `i`, its first, with the first triangle that is in contact, or the piece. */
+static pir_status take_event(const struct touched *touched, uint32_t i, uint32_t count) {
     const pir_surface_contact *met = touched->worker->met;
-    const pir_scene_item *item = NULL;
+    pir_scene_item *item = NULL;
     for (uint32_t k = i; k < count && !item; k++)
-        item = is_same_normal(&met[k], &met[i]) ? item_of(touched, &met[k]) : NULL;
-    pir_scene_found *found = add_found(touched, item ? item : &touched->item[0]);
+        item = is_one_event(touched, &met[k], &met[i]) ? item_of(touched, &met[k]) : NULL;
+    pir_scene_found *found = add_found(touched, item ? item : first_triangle(touched));
     bool good = found;
     for (uint32_t k = i; k < count && good; k++)
-        good = !is_same_normal(&met[k], &met[i]) || add_contact(touched, found, &met[k]);
+        good = !is_one_event(touched, &met[k], &met[i]) || add_contact(touched, found, &met[k]);
     return good ? PIR_OK : PIR_ERR_MEMORY;
 }
 
-/* The items that no contact stands with. */
-static pir_status take_others(const struct touched *touched) {
+/*
+ * The items that no contact stands with. Where nothing is near, the piece is deep inside of others, away from their
+ * facets: the pairs know how deep.
+ */
+static pir_status take_others(const struct touched *touched, bool near) {
     const pir_scene_worker *worker = touched->worker;
     const uint32_t end = worker->on_surface_count;
     for (uint32_t i = 0; i < touched->count; i++) {
         uint32_t k = touched->first_found;
+        if (!is_at_hand(touched, i) || (!near && !is_triangle(touched, i)))
+            continue;
         while (k < end && worker->on_surface[k].pair != touched->item[i].pair)
             k++;
         if (k == end && !add_found(touched, &touched->item[i]))
@@ -170,27 +242,40 @@ static pir_status take_others(const struct touched *touched) {
     return PIR_OK;
 }
 
-/* The least radius of a surface above `last`; HUGE_VAL for none. */
-static double next_radius(const struct touched *touched, double last) {
-    double least = HUGE_VAL;
-    for (uint32_t i = 0; i < touched->count; i++)
-        if (radius_of(touched, i) > last)
-            least = fmin(least, radius_of(touched, i));
-    return least;
+/* Whether the group that begins with an item is one piece alone, and the piece that asks is a whole body. */
+static bool is_alone(const struct touched *touched) {
+    const pir_scene *scene = touched->scene;
+    if (scene->bodies.body[scene->bodies.piece[touched->item[0].key.bodies].body].pieces > 1)
+        return false;
+    for (uint32_t i = touched->group + 1; i < touched->count; i++)
+        if (is_at_hand(touched, i))
+            return false;
+    return !is_triangle(touched, touched->group);
+}
+
+static pir_status find_union(struct touched *touched) {
+    uint32_t count = 0;
+    bool near = false;
+    if (is_alone(touched))
+        return PIR_OK;
+    touched->radius = body_at(touched, touched->group)->radius;
+    touched->first_found = touched->worker->on_surface_count;
+    pir_status status = ask(touched, &count, &near);
+    for (uint32_t i = 0; i < count && status == PIR_OK; i++)
+        if (!comes_again(touched, i))
+            status = take_event(touched, i, count);
+    return status == PIR_OK ? take_others(touched, near) : status;
 }
 
 static pir_status find(struct touched *touched) {
     pir_status status = PIR_OK;
-    touched->first_found = touched->worker->on_surface_count;
-    for (touched->radius = next_radius(touched, -1); status == PIR_OK && touched->radius < HUGE_VAL;
-         touched->radius = next_radius(touched, touched->radius)) {
-        uint32_t count = 0;
-        status = ask(touched, &count);
-        for (uint32_t i = 0; i < count && status == PIR_OK; i++)
-            if (!comes_again(touched->worker->met, i))
-                status = take_normal(touched, i, count);
+    pir_scene_group_items(touched->scene, touched->item, touched->count);
+    for (uint32_t i = 0; i < touched->count && status == PIR_OK; i++) {
+        touched->group = i;
+        if (touched->item[i].group == i)
+            status = find_union(touched);
     }
-    return status == PIR_OK ? take_others(touched) : status;
+    return status;
 }
 
 static void find_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
@@ -204,23 +289,17 @@ static void find_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t
     }
 }
 
-/* Lists what was found with surfaces, piece by piece; the number. */
-static uint32_t list_items(pir_scene *scene) {
-    uint32_t count = 0;
-    for (uint32_t w = 0; w < scene->threads; w++)
-        for (uint32_t i = 0; i < scene->worker[w].found_count; i++) {
-            const pir_scene_found *found = &scene->worker[w].found[i];
-            if (!pir_scene_is_with_surface(scene, found->pair))
-                continue;
-            const uint32_t *of = scene->pairs.at[found->pair].piece;
-            const int side = scene->bodies.piece[of[0]].kind == PIR_PIECE_TRIANGLE ? 0 : 1;
-            const pir_scene_piece *triangle = &scene->bodies.piece[of[side]];
-            scene->lists.item[count++] = (pir_scene_item){
-                {of[1 - side], (uint64_t)triangle->body << 32 | triangle->number}, NULL, found, found->pair};
-        }
-    if (count > 1)
-        pir_scene_sort_items(scene->lists.item, scene->lists.work, count);
-    return count;
+/* Makes the facets of all pieces that may be asked about. */
+static pir_status make_facets(pir_scene *scene, uint32_t count) {
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < count && status == PIR_OK; i++) {
+        const pir_scene_item *item = &scene->lists.item[i];
+        const uint32_t *of = scene->pairs.at[item->pair].piece;
+        pir_scene_piece *part = &scene->bodies.piece[of[0] == item->key.bodies ? of[1] : of[0]];
+        if (part->kind == PIR_PIECE_CONVEX)
+            status = pir_piece_facets(part, &scene->allocator);
+    }
+    return status;
 }
 
 /* Reports the first question that failed: of a piece with one surface or more. */
@@ -252,7 +331,9 @@ pir_status pir_scene_find_surface_contacts(pir_scene *scene) {
         !PIR_GROW(&scene->allocator, lists->work, lists->work_capacity, most) ||
         !PIR_GROW(&scene->allocator, lists->run, lists->run_capacity, most + 1))
         return pir_fail(scene->report, PIR_ERR_MEMORY, "update: its surfaces: %s", pir_status_text(PIR_ERR_MEMORY));
-    const uint32_t count = list_items(scene);
+    const uint32_t count = pir_scene_list_union_items(scene);
+    if (make_facets(scene, count) != PIR_OK)
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "update: its surfaces: %s", pir_status_text(PIR_ERR_MEMORY));
     for (uint32_t i = 0; i < count; i++)
         if (i == 0 || lists->item[i].key.bodies != lists->item[i - 1].key.bodies)
             lists->run[runs++] = i;

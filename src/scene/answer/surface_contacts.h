@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Contacts of pieces with surfaces, without ghosts: those of one piece with all triangles that it is in contact with,
- * of all surfaces, are found together (trimesh_contact.h).
+ * Contacts of pieces with unions, without ghosts: those of one piece with all triangles of surfaces, and with all
+ * pieces side by side, that it is in contact with, are found together (unions.h, trimesh_contact.h).
  */
 #ifndef PIR_SCENE_ANSWER_SURFACE_CONTACTS_H
 #define PIR_SCENE_ANSWER_SURFACE_CONTACTS_H

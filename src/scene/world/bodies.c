@@ -222,6 +222,7 @@ void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
         uint32_t next = bodies->piece[piece].next;
         pir_polytope_release(bodies->piece[piece].extent.polytope);
         pir_coarse_release(bodies->piece[piece].extent.coarse);
+        pir_trimesh_release(bodies->piece[piece].facets);
         bodies->piece[piece] = (pir_scene_piece){.next = bodies->piece_unused};
         bodies->piece_unused = piece;
         bodies->piece_count--;

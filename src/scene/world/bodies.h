@@ -45,9 +45,10 @@ typedef struct pir_scene_piece {
     uint32_t node;         /* its leaf of the tree; of a triangle: the one before it in the list */
     uint32_t first;        /* end of its list of pairs */
     uint8_t kind;
-    uint64_t mark;  /* the visit that has seen it */
-    uint64_t moved; /* the update that moved its body last */
-    pir_box tight;  /* holds the piece with its radius and half of the scene's margin */
+    pir_trimesh *facets; /* of a convex piece: its boundary, or NULL until it is needed */
+    uint64_t mark;       /* the visit that has seen it */
+    uint64_t moved;      /* the update that moved its body last */
+    pir_box tight;       /* holds the piece with its radius and half of the scene's margin */
 } pir_scene_piece;
 
 /*

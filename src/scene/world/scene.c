@@ -74,6 +74,7 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     scene->detail = used.detail;
     scene->margin = used.margin;
     scene->approach = used.approach;
+    scene->unions = used.unions;
     scene->report = used.report;
     pir_bodies_init(&scene->bodies);
     pir_scene_pairs_init(&scene->pairs);
@@ -117,6 +118,7 @@ void pir_scene_destroy(pir_scene *scene) {
         PIR_FREE(a, scene->worker[i].on_surface, scene->worker[i].on_surface_capacity);
         PIR_FREE(a, scene->worker[i].surface, scene->worker[i].surface_capacity);
         PIR_FREE(a, scene->worker[i].met, scene->worker[i].met_capacity);
+        PIR_FREE(a, scene->worker[i].beside, scene->worker[i].beside_capacity);
     }
     PIR_FREE(a, scene->worker, scene->threads);
     pir_scene_pairs_finish(&scene->pairs, a);

@@ -28,6 +28,7 @@
 /* A contact that a worker has found. */
 typedef struct pir_scene_found {
     uint32_t pair, first, count; /* and its contacts, of the worker's */
+    bool in_union;               /* its event is made of what was found of a union: `on_surface` of a worker */
     pir_state state;
     double distance;
     pir_vec3 normal;
@@ -47,13 +48,14 @@ typedef struct pir_scene_worker {
     uint32_t noted_capacity, noted_count, looked;
     pir_scene_found *found;
     uint32_t found_capacity, found_count;
-    pir_scene_found *on_surface; /* the same of pairs with triangles, with their contacts */
+    pir_scene_found *on_surface; /* those of unions: surfaces, pieces side by side */
     uint32_t on_surface_capacity, on_surface_count;
     pir_contact *contact;
     uint32_t contact_capacity, contact_count;
     pir_posed_surface *surface; /* of a question about surfaces, and what it is answered by */
     pir_surface_contact *met;
-    uint32_t surface_capacity, met_capacity;
+    const pir_polytope **beside; /* the pieces next to the one that is asked */
+    uint32_t surface_capacity, met_capacity, beside_capacity;
     pir_status status; /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
@@ -67,8 +69,9 @@ typedef struct pir_scene_key {
 typedef struct pir_scene_item {
     pir_scene_key key;
     const pir_scene_worker *worker;
-    const pir_scene_found *found;
+    pir_scene_found *found;
     uint32_t pair;
+    uint32_t group; /* the first item of its union, in a run of items of one piece */
 } pir_scene_item;
 
 /* A body that an update brings to a place. */
@@ -121,7 +124,7 @@ struct pir_scene {
     pir_allocator for_triangles;
     pir_scene_detail detail;
     double margin;
-    bool approach;
+    bool approach, unions;
     pir_report *report; /* the caller's, or NULL */
     uint32_t threads;
     pir_tasks tasks;
