@@ -32,7 +32,7 @@
 typedef double pir_lane __attribute__((vector_size(8 * PIR_WIDTH), aligned(8), may_alias));
 
 /* As many integers: places, and what comparing gives. */
-typedef int64_t pir_places __attribute__((vector_size(8 * PIR_WIDTH)));
+typedef int64_t pir_lane_bits __attribute__((vector_size(8 * PIR_WIDTH)));
 
 /* Bytes, and numbers of 32 bits, as many as the doubles have room for. */
 typedef uint8_t pir_byte_lanes __attribute__((vector_size(8 * PIR_WIDTH), aligned(1), may_alias));
@@ -52,12 +52,12 @@ PIR_LANES_INLINE pir_lane pir_all(double x) {
 }
 
 PIR_LANES_INLINE pir_lane pir_size(pir_lane a) {
-    return (pir_lane)((pir_places)a & INT64_MAX);
+    return (pir_lane)((pir_lane_bits)a & INT64_MAX);
 }
 
 /* a where all bits of a place are set, b where none is. */
-PIR_LANES_INLINE pir_lane pir_choose(pir_places where, pir_lane a, pir_lane b) {
-    return (pir_lane)(((pir_places)a & where) | ((pir_places)b & ~where));
+PIR_LANES_INLINE pir_lane pir_choose(pir_lane_bits where, pir_lane a, pir_lane b) {
+    return (pir_lane)(((pir_lane_bits)a & where) | ((pir_lane_bits)b & ~where));
 }
 
 /* The lesser and the greater of a and b in every lane, b where they are not ordered. */
@@ -88,7 +88,7 @@ PIR_LANES_INLINE pir_lane pir_roots(pir_lane a) {
 }
 
 /* The places of which all bits are set: a bit each. */
-PIR_LANES_INLINE uint32_t pir_where(pir_places where) {
+PIR_LANES_INLINE uint32_t pir_where(pir_lane_bits where) {
 #if PIR_LANES_AVX2
     return (uint32_t)_mm256_movemask_pd((__m256d)where);
 #else

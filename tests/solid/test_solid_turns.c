@@ -206,7 +206,7 @@ static void sum_outlives_rotations_that_run_out_of_memory(void **state) {
         pir_solid_sum *sum = NULL, *fresh = NULL;
         options.open = open != 0;
         assert_int_equal(pir_solid_sum_create(p, q, first, &options, &fresh), PIR_OK);
-        options.solid.allocator = &allocator;
+        options.allocator = &allocator;
         assert_int_equal(pir_solid_sum_create(p, q, first, &options, &sum), PIR_OK);
         pir_status status = PIR_ERR_MEMORY;
         for (uint64_t n = 1; status != PIR_OK; n += 1 + n / 8) {

@@ -114,10 +114,10 @@ PIR_LANES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_
 
 PIR_LANES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
     pir_lane most = pir_all(HUGE_VAL), first = most, second = most;
-    pir_places at = {0}, here = {0};
+    pir_lane_bits at = {0}, here = {0};
     for (uint32_t i = 0; i < count; i += PIR_WIDTH) {
         pir_lane v = pir_load(&low[i]);
-        pir_places less = v < first;
+        pir_lane_bits less = v < first;
         second = pir_lesser_lanes(pir_greater_lanes(v, first), second);
         first = pir_lesser_lanes(v, first);
         at = (at & ~less) | (here & less);

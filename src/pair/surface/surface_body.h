@@ -60,13 +60,13 @@ PIR_LANES_TARGET static uint64_t below(const pir_surface *surface, const pir_sur
 
 PIR_LANES_TARGET static double least(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles) {
     const pir_lane none = pir_all(HUGE_VAL);
-    pir_places bit;
+    pir_lane_bits bit;
     for (int k = 0; k < PIR_WIDTH; k++)
         bit[k] = 1 << k;
     pir_lane low = none;
     triangles &= pir_surface_first(surface->count);
     for (uint32_t t = 0; t < surface->count; t += PIR_WIDTH) {
-        pir_places is = (((pir_places){0} + (int64_t)(triangles >> t)) & bit) == bit;
+        pir_lane_bits is = (((pir_lane_bits){0} + (int64_t)(triangles >> t)) & bit) == bit;
         low = pir_lesser_lanes(pir_choose(is, pir_load(&room->plane.low[t]), none), low);
     }
     return pir_least_of(low);

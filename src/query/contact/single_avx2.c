@@ -59,7 +59,7 @@ PIR_LANES_TARGET static inline bool set_crossings(__m128i outside, __m128i beyon
 PIR_LANES_INLINE bool place_four(const struct four *of_p, uint32_t p, const struct four *of_q, uint32_t q,
                                  pir_clip_places *places) {
     const struct four side = *of_q;
-    pir_places clear = ~(pir_places){0}, outside = {0}, beyond = {0}, bit = (pir_places){0} + 1;
+    pir_lane_bits clear = ~(pir_lane_bits){0}, outside = {0}, beyond = {0}, bit = (pir_lane_bits){0} + 1;
     for (uint32_t j = 0; j < q; j++, bit += bit) {
         pir_lane inside = side.along_u[j] * of_p->v - side.along_v[j] * of_p->u - side.at[j];
         pir_lane within = of_p->along_u * side.v[j] - of_p->along_v * side.u[j] - of_p->at;

@@ -441,7 +441,7 @@ static void add_ceilings(struct sight_walls *s) {
         const uint32_t *corner = body->part_corner + body->part_start[p];
         const uint32_t count = body->part_start[p + 1] - body->part_start[p];
         const uint32_t made = pir_polygons_add(polygons, body->half[body->part_facet[p]], corner,
-                                               body->part_direction + body->part_start[p], count);
+                                               body->part_direction + body->part_start[p], NULL, count);
         for (uint32_t i = 0; i < count && s->space->status == PIR_OK; i++)
             polygons->wall[polygons->polygon[made].first + i] =
                 pir_floor_wall(&s->map, corner[i], corner[i + 1 < count ? i + 1 : 0]);
