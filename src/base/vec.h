@@ -28,6 +28,20 @@ static inline pir_vec3 pir_vec_cross(pir_vec3 a, pir_vec3 b) {
     return (pir_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+static inline double pir_vec_length(pir_vec3 a) {
+    return sqrt(pir_vec_dot(a, a));
+}
+
+/* |x| + |y| + |z|, which is no less than the length. */
+static inline double pir_vec_taxicab(pir_vec3 a) {
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
+/* Coordinate k. */
+static inline double pir_vec_component(pir_vec3 a, int k) {
+    return k == 0 ? a.x : k == 1 ? a.y : a.z;
+}
+
 static inline bool pir_vec_is_finite(pir_vec3 a) {
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }

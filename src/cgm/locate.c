@@ -35,10 +35,6 @@ struct located_point {
     double length;
 };
 
-static double length_of(pir_vec3 v) {
-    return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 /* A face beside vertex v that is not the outer one: it carries an extreme vertex in v's direction. */
 static uint32_t face_at(const pir_cgm *cgm, uint32_t v) {
     return cgm->half[cgm->vertex[v].out].face;
@@ -141,7 +137,7 @@ static int exact_order(struct pir_cgm_locator *l, const struct located_point *s,
 
 /* Whether the plane of w is cut by the ray strictly before that of v: a_w b_v > a_v b_w. */
 static bool is_better(struct pir_cgm_locator *l, const struct located_point *s, uint32_t w, uint32_t v) {
-    struct located_point c = {l->centre, length_of(l->centre)};
+    struct located_point c = {l->centre, pir_vec_taxicab(l->centre)};
     uint32_t at[2] = {w, v};
     double a[2], b[2], a_error[2], b_error[2];
     for (int i = 0; i < 2; i++) {
@@ -222,7 +218,7 @@ pir_status pir_cgm_locate(pir_cgm_locator *l, pir_vec3 point, uint32_t witness, 
         return PIR_ERR_ARGUMENT;
     if (!pir_vec_is_finite(point))
         return PIR_ERR_NOT_FINITE;
-    struct located_point s = {point, length_of(point)};
+    struct located_point s = {point, pir_vec_taxicab(point)};
     if (!l->solid) {
         look_at_all(l, &s, ret_location);
         return PIR_OK;
@@ -251,7 +247,7 @@ static bool find_centre(struct pir_cgm_locator *l) {
     l->centre = sum;
     if (!pir_vec_is_finite(sum))
         return false;
-    struct located_point c = {sum, length_of(sum)};
+    struct located_point c = {sum, pir_vec_taxicab(sum)};
     bool any = false;
     for (uint32_t v = 0; v < pir_cgm_vertices(cgm); v++) {
         if (cgm->vertex[v].real && height_sign(l, v, &c) <= 0)
@@ -292,7 +288,7 @@ pir_status pir_cgm_locator_create(const pir_cgm *cgm, pir_cgm_locator **ret_loca
         const pir_polytope *p = cgm->source[s].polytope;
         double most = 0;
         for (uint32_t v = 0; v < p->vertex_count; v++)
-            most = fmax(most, length_of(p->vertex[v]));
+            most = fmax(most, pir_vec_taxicab(p->vertex[v]));
         l->size += most * (1 + 8 * U);
     }
     l->solid = find_centre(l);

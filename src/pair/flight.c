@@ -17,12 +17,8 @@
 /* Likewise of the way of P's farthest point: angles of many turns have few bits behind them. */
 #define TURN_ERROR 0x1p-48
 
-static double length(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 static int most_steps(const pir_flight *flight) {
-    return (int)fmin(MOST_STEPS, STEPS_A_TURN * (1 + floor(length(flight->motion->turn) / FULL_TURN)));
+    return (int)fmin(MOST_STEPS, STEPS_A_TURN * (1 + floor(pir_vec_length(flight->motion->turn) / FULL_TURN)));
 }
 
 /* An advance on a pair. */
@@ -56,7 +52,7 @@ static pir_status ask(pir_advance *advance, pir_pose *ret_pose) {
 pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input *input, const pir_flight *flight,
                         double until, pir_flight_end *ret_end) {
     const pir_motion *motion = flight->motion;
-    const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * length(motion->turn) * flight->reach;
+    const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * pir_vec_length(motion->turn) * flight->reach;
     struct pair_advance on = {{.body = {flight->p->vertex, flight->p->vertex_count, input->radius_p, flight->reach,
                                         motion->way, motion->turn},
                                .motion = motion,
@@ -70,8 +66,8 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
                               input,
                               flight};
     // a distance beyond P's whole way need not be known
-    input->cutoff = (length(motion->way) + length(motion->turn) * flight->reach) * (1 + 0x1p-40) + 2 * error +
-                    fmax(flight->tolerance, 4 * error);
+    input->cutoff = (pir_vec_length(motion->way) + pir_vec_length(motion->turn) * flight->reach) * (1 + 0x1p-40) +
+                    2 * error + fmax(flight->tolerance, 4 * error);
     pir_status status = pir_advance_run(&on.advance);
     if (status == PIR_OK)
         *ret_end = (pir_flight_end){on.advance.outcome, on.advance.time, on.advance.answer};

@@ -58,16 +58,12 @@ static void consider(struct farthest_search *f, uint32_t p, uint32_t vp, uint32_
     f->high = distance + error;
 }
 
-static double length_of(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 static void look(struct farthest_search *f, uint32_t p, uint32_t q) {
     f->pair->counts.triangles++;
     pir_corners a = pir_frame_corners(&f->pair->frame, 0, p), b = pir_frame_corners(&f->pair->frame, 1, q);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            consider(f, p, a.id[i], q, b.id[j], length_of(pir_vec_sub(a.p[i], b.p[j])));
+            consider(f, p, a.id[i], q, b.id[j], pir_vec_length(pir_vec_sub(a.p[i], b.p[j])));
 }
 
 static void look_at_leaves(struct farthest_search *f, uint32_t leaf_p, uint32_t leaf_q) {
@@ -93,7 +89,7 @@ static double most_of(const pir_trimesh_pair *pair, const pir_node_lanes *p, int
     pir_vec3 between = pir_vec_sub(pir_mesh_frame_apply(&pair->frame, middle_of(p, i)), middle_of(q, j));
     double radii = sqrt((double)pir_lane_size(p, i)) + sqrt((double)pir_lane_size(q, j));
     double along = half_along(p, i, pir_mat_apply_transposed(&pair->frame.r, between)) + half_along(q, j, between);
-    double length = length_of(between), square = length * length + 2 * along + radii * radii;
+    double length = pir_vec_length(between), square = length * length + 2 * along + radii * radii;
     double most = fmin(sqrt(square), length + radii);
     return most * (1 + 0x1p-20) + (double)pair->floats.error;
 }
@@ -169,6 +165,6 @@ pir_status pir_trimesh_pair_farthest(pir_trimesh_pair *pair, pir_pose pose_p, pi
     pair->farthest_p = f.p;
     pair->farthest_q = f.q;
     pir_vec3 p = vertex_in_world(pair, 0, f.vertex_p), q = vertex_in_world(pair, 1, f.vertex_q);
-    *ret_distance = (pir_trimesh_distance){PIR_TRIMESH_APART, length_of(pir_vec_sub(p, q)), f.p, f.q, p, q};
+    *ret_distance = (pir_trimesh_distance){PIR_TRIMESH_APART, pir_vec_length(pir_vec_sub(p, q)), f.p, f.q, p, q};
     return PIR_OK;
 }

@@ -13,10 +13,6 @@
 /* Limbs of the stack, by those of an exact coordinate: six corners are made with below 40 each, then compared. */
 #define STACK_LIMBS(coordinate) (560 * (coordinate) + 2000)
 
-static double length_of(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 /* --- room --- */
 
 static void widen(double x, int *top, int *low) {
@@ -83,7 +79,7 @@ static void set_doubles(pir_mesh_frame *frame) {
             frame->r.m[i][j] = q->m[0][i] * p->m[0][j] + q->m[1][i] * p->m[1][j] + q->m[2][i] * p->m[2][j];
     pir_vec3 tp = frame->pose[0].translation, tq = frame->pose[1].translation;
     frame->t = pir_mat_apply_transposed(q, pir_vec_sub(tp, tq));
-    frame->size = frame->reach[0] + frame->reach[1] + length_of(tp) + length_of(tq);
+    frame->size = frame->reach[0] + frame->reach[1] + pir_vec_length(tp) + pir_vec_length(tq);
     frame->error = 0x1p-46 * frame->size;
 }
 

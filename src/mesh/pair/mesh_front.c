@@ -16,10 +16,6 @@ void pir_mesh_front_finish(pir_mesh_front *front, const pir_allocator *allocator
     PIR_FREE(allocator, front->expired, front->room);
 }
 
-static double length_of(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 /* Makes keys those of a count of motion that begins now. */
 static void rebase(pir_mesh_front *front) {
     for (uint32_t i = 0; i < front->count; i++) {
@@ -39,7 +35,7 @@ void pir_mesh_front_move(pir_mesh_front *front, const pir_mesh_frame *frame, pir
     }
     // |ΔR| as an operator is its Frobenius norm over √2, for ΔR has rank two and equal singular values
     front->turn += sqrt(0.5 * square) * (1 + 0x1p-40) + 0x1p-44;
-    front->path += length_of(pir_vec_sub(middle, front->middle)) * (1 + 0x1p-40) + 4 * frame->error;
+    front->path += pir_vec_length(pir_vec_sub(middle, front->middle)) * (1 + 0x1p-40) + 4 * frame->error;
     front->r = frame->r;
     front->middle = middle;
     if (front->path + frame->reach[0] * front->turn > 4 * frame->size)

@@ -96,18 +96,14 @@ static struct found_features find_nearest(const pir_corners *a, const pir_corner
 
 /* --- certainty --- */
 
-static double length_of(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 /* The longest difference of two corners of either, at most doubled. */
 static double longest(const pir_corners *a, const pir_corners *b) {
     double most = 0;
     for (int i = 0; i < a->count; i++)
         for (int k = 0; k < 3; k++)
-            most = fmax(most, length_of(pir_vec_sub(a->p[i], k < b->count ? b->p[k] : a->p[k % a->count])));
+            most = fmax(most, pir_vec_length(pir_vec_sub(a->p[i], k < b->count ? b->p[k] : a->p[k % a->count])));
     for (int k = 0; k < b->count; k++)
-        most = fmax(most, length_of(pir_vec_sub(b->p[k], a->p[0])));
+        most = fmax(most, pir_vec_length(pir_vec_sub(b->p[k], a->p[0])));
     return 2 * most;
 }
 
@@ -269,7 +265,7 @@ static double gap_along(const pir_corners *a, const pir_corners *b, pir_vec3 n) 
 pir_span pir_triangle_span(const pir_corners *a, const pir_corners *b, double error) {
     struct found_features found = find_nearest(a, b);
     pir_vec3 between = pir_vec_sub(found.a, found.b);
-    double distance = length_of(between), slack = 16 * error + UNDERFLOW;
+    double distance = pir_vec_length(between), slack = 16 * error + UNDERFLOW;
     pir_span span = {.high = distance + slack, .point_a = found.a, .point_b = found.b};
     if (distance > slack) {
         double gap = gap_along(a, b, pir_vec_scale(between, 1 / distance)) * (1 - 0x1p-48) - slack;

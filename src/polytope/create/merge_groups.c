@@ -135,10 +135,6 @@ static uint32_t grow(pir_merge_groups *groups, const struct measured *measured, 
 
 /* --- planes --- */
 
-static double component(pir_vec3 v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 /* The slope of the plane with this normal, for corners within `radius` of each other. */
 static pir_merge_slope slope_of(pir_vec3 normal, double radius, double tolerance) {
     double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
@@ -148,8 +144,8 @@ static pir_merge_slope slope_of(pir_vec3 normal, double radius, double tolerance
         frexp(radius / tolerance, &ratio);
     slope.bits = ratio + SPARE_BITS < 1 ? 1 : ratio + SPARE_BITS > SLOPE_BITS_MAX ? SLOPE_BITS_MAX : ratio + SPARE_BITS;
     for (int k = 0; k < 2; k++)
-        slope.slope[k] =
-            llround(ldexp(-component(normal, (slope.axis + 1 + k) % 3) / component(normal, slope.axis), slope.bits));
+        slope.slope[k] = llround(ldexp(
+            -pir_vec_component(normal, (slope.axis + 1 + k) % 3) / pir_vec_component(normal, slope.axis), slope.bits));
     return slope;
 }
 
@@ -168,8 +164,8 @@ static double spread_of(const pir_merge_groups *groups, const struct measured *m
         uint32_t f = groups->facets[i];
         for (uint32_t j = hull->loop_start[f]; j < hull->loop_start[f + 1]; j++) {
             pir_vec3 d = pir_vec_sub(measured->at[hull->origin[hull->loop[j]]], origin);
-            double height = component(d, slope->axis) - rise[0] * component(d, (slope->axis + 1) % 3) -
-                            rise[1] * component(d, (slope->axis + 2) % 3);
+            double height = pir_vec_component(d, slope->axis) - rise[0] * pir_vec_component(d, (slope->axis + 1) % 3) -
+                            rise[1] * pir_vec_component(d, (slope->axis + 2) % 3);
             low = fmin(low, height);
             high = fmax(high, height);
         }

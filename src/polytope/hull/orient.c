@@ -144,13 +144,9 @@ int pir_orient(pir_points *points, uint32_t a, uint32_t b, uint32_t c, uint32_t 
     return pir_orient_exact(points, a, b, c, p);
 }
 
-static double component(pir_vec3 v, int axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 int pir_turn(pir_points *points, int axis, uint32_t a, uint32_t b, uint32_t c) {
     // the filter: a component of the plane's normal, whose error is below 49·2^-53
-    double near = component(pir_plane_through(points, a, b, c).normal, axis);
+    double near = pir_vec_component(pir_plane_through(points, a, b, c).normal, axis);
     if (fabs(near) > 0x1p-47)
         return near > 0 ? 1 : -1;
     pir_limbs *scratch = &points->scratch;

@@ -80,15 +80,11 @@ static double fall_of(const pir_polytope *p, uint32_t f) {
     return least;
 }
 
-static double length(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 static double least_apart(const pir_vec3 *at, uint32_t count) {
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < count; i++)
         for (uint32_t k = 0; k < i; k++)
-            least = fmin(least, length(pir_vec_sub(at[i], at[k])));
+            least = fmin(least, pir_vec_length(pir_vec_sub(at[i], at[k])));
     return least;
 }
 
@@ -110,10 +106,10 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
     for (uint32_t i = 0; i < count; i++) {
         pir_vec3 a = pir_vec_sub(at[i], at[i > 0 ? i - 1 : count - 1]);
         pir_vec3 b = pir_vec_sub(at[i + 1 < count ? i + 1 : 0], at[i]);
-        double twice = length(pir_vec_cross(a, b));
-        thick = fmin(thick, twice / (length(a) + length(b)));
+        double twice = pir_vec_length(pir_vec_cross(a, b));
+        thick = fmin(thick, twice / (pir_vec_length(a) + pir_vec_length(b)));
         most = fmax(most, twice);
-        around += length(b);
+        around += pir_vec_length(b);
     }
     shape.fall = (float)fall_of(p, f);
     shape.thick = (float)thick;

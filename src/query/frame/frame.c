@@ -82,15 +82,6 @@ static double remainder_of(const pir_polytope *p, const pir_int *a, double neare
     return rest;
 }
 
-static double component(pir_vec3 v, int k) {
-    return k == 0 ? v.x : k == 1 ? v.y : v.z;
-}
-
-/* An upper bound on |v|. */
-static double taxicab(pir_vec3 v) {
-    return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 /*
  * Sets the vertices of a body about the middle of its bounds, its size and its middle. False where the middle is too
  * far away.
@@ -120,13 +111,13 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     body->size = sqrt(square) * (1 + 0x1p-48);
     pir_int3 first = pir_vertex_exact(p, 0);
     for (int k = 0; k < 3; k++) {
-        double nearest = component(p->vertex[0], k), away = ldexp(nearest, -exponent);
+        double nearest = pir_vec_component(p->vertex[0], k), away = ldexp(nearest, -exponent);
         if (!(fabs(away) < PIR_FARTHEST))
             return false;
         double rest = ldexp(remainder_of(p, &first.c[k], nearest), -exponent);
-        body->centre.c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){component(middle, k), 0});
+        body->centre.c[k] = pir_dd_add((pir_dd){away, rest}, (pir_dd){pir_vec_component(middle, k), 0});
     }
-    body->far = taxicab(pir_dd3_round(body->centre));
+    body->far = pir_vec_taxicab(pir_dd3_round(body->centre));
     return true;
 }
 
@@ -239,11 +230,11 @@ pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *wor
         return PIR_ERR_LIMIT;
     pir_dd3 t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
     pir_vec3 near = pir_dd3_round(t);
-    bool turns_by_doubles = taxicab(near) <= 4 * (frame->p.size + frame->q.size);
+    bool turns_by_doubles = pir_vec_taxicab(near) <= 4 * (frame->p.size + frame->q.size);
     ret_placement->translation = world->translation_p;
     ret_placement->x = turns_by_doubles ? turn_near(frame, world, near) : turn_far(frame, world, &t);
-    pir_frame_set_reach(frame, taxicab(to) + taxicab(from), ret_placement);
+    pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
     if (turns_by_doubles)
-        ret_placement->error += TURN_ERROR * taxicab(near);
+        ret_placement->error += TURN_ERROR * pir_vec_taxicab(near);
     return PIR_OK;
 }

@@ -28,10 +28,6 @@ static bool has_tiny(pir_quat q) {
            (q.w != 0 && fabs(q.w) < least);
 }
 
-static double taxicab(pir_vec3 v) {
-    return fabs(v.x) + fabs(v.y) + fabs(v.z);
-}
-
 /* The square of the distance of two quaternions; of those that are each other's opposite it is far too great. */
 static double square_chord(pir_quat a, pir_quat b) {
     double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z, w = a.w - b.w;
@@ -41,7 +37,7 @@ static double square_chord(pir_quat a, pir_quat b) {
 /* How far a body has gone along n, in units of the frame, and the length that rounding is relative to. */
 static double gone_along(const pir_pair_proof *proof, const pir_pose *from, const pir_pose *to, double *far) {
     pir_vec3 way = pir_vec_scale(pir_vec_sub(to->translation, from->translation), proof->down);
-    *far += taxicab(way);
+    *far += pir_vec_taxicab(way);
     return pir_vec_dot(proof->along, way);
 }
 
@@ -65,7 +61,8 @@ bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const 
     if (!(proof->leeway > 0))
         return false;
     const bool q_stands = pir_pose_is_same(at_q, &proof->q);
-    const double far = (taxicab(at_p->translation) + taxicab(at_q->translation)) * proof->down + p->far + q->far;
+    const double far =
+        (pir_vec_taxicab(at_p->translation) + pir_vec_taxicab(at_q->translation)) * proof->down + p->far + q->far;
     const double reach = p->size + q->size + far;
     double way = reach, leeway = proof->leeway - least * proof->down * (1 + 0x1p-40);
     leeway += gone_along(proof, &proof->p, at_p, &way);
