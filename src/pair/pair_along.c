@@ -41,11 +41,10 @@ static pir_status make_line(const pir_workspace *workspace, const pir_placement 
 
 /* Brings a result whose points are one, where it has any, to the world. */
 static void arrive_in_world(const pir_workspace *workspace, pir_query_result *result) {
-    const bool has_points = result->normal.x != 0 || result->normal.y != 0 || result->normal.z != 0;
-    if (!workspace->posed || !has_points)
+    if (!workspace->posed)
         return;
-    result->normal = pir_mat_apply(&workspace->rotation_q.r, result->normal);
-    result->point_p = result->point_q = pir_pair_point_to_world(workspace, result->point_q);
+    pir_pair_to_world(workspace, result);
+    result->point_p = result->point_q;
 }
 
 static pir_status look_along(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, pir_vec3 direction,
@@ -140,15 +139,11 @@ pir_status pir_pair_cast(pir_pair *pair, pir_workspace *workspace, const pir_pai
 
 /* --- times of impact --- */
 
-static double length(pir_vec3 v) {
-    return sqrt(pir_vec_dot(v, v));
-}
-
 /* The distance of a polytope's farthest vertex from its origin, rounded up. */
 static double reach_of(const pir_polytope *p) {
     double most = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, length(p->vertex[v]));
+        most = fmax(most, pir_vec_length(p->vertex[v]));
     return most * (1 + 0x1p-48) + 0x1p-1074;
 }
 
@@ -166,7 +161,8 @@ pir_status pir_pair_time_of_impact(pir_pair *pair, pir_workspace *workspace, con
     pir_flight flight = {.p = pair->p, .from = input->pose_p, .motion = motion, .tolerance = tolerance};
     flight.reach = reach_of(pair->p);
     flight.size = flight.reach + reach_of(pair->q) + input->radius_p + input->radius_q +
-                  length(input->pose_p.translation) + length(input->pose_q.translation) + length(motion->way);
+                  pir_vec_length(input->pose_p.translation) + pir_vec_length(input->pose_q.translation) +
+                  pir_vec_length(motion->way);
     status = pir_pair_fly(pair, workspace, &at, &flight, 1, &end);
     if (status != PIR_OK)
         return status;

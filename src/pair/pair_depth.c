@@ -74,17 +74,6 @@ static bool has_vertex(const pir_polytope *p, pir_feature face, uint32_t v) {
     return false;
 }
 
-/*
- * Whether corner i of the surface is in a true facet of D. A vertex is asked for before a facet, which takes longer.
- */
-static inline bool is_in(const struct overlap *overlap, uint32_t i, const pir_facet *facet) {
-    const pir_frame *frame = overlap->exact->frame;
-    uint32_t a = overlap->surface->a[i], b = overlap->surface->b[i];
-    if (facet->faces.p.kind == PIR_FEATURE_FACET)
-        return has_vertex(frame->q.polytope, facet->faces.q, b) && has_vertex(frame->p.polytope, facet->faces.p, a);
-    return has_vertex(frame->p.polytope, facet->faces.p, a) && has_vertex(frame->q.polytope, facet->faces.q, b);
-}
-
 /* Those of the corners whose vertices of a body, `at`, a face of it has. */
 static uint32_t corners_at(const struct overlap *overlap, const pir_polytope *p, pir_feature face, const uint32_t *at,
                            uint32_t corners) {
@@ -102,16 +91,16 @@ static uint32_t corners_at(const struct overlap *overlap, const pir_polytope *p,
     return in;
 }
 
-/* The corners that are: bit i for corner i. */
-static uint32_t corners_in(const struct overlap *overlap, const pir_facet *facet) {
+/* Those of the corners, bit i for corner i, that are in a true facet of D. A vertex is asked for before a facet. */
+static uint32_t corners_in(const struct overlap *overlap, const pir_facet *facet, uint32_t corners) {
     const pir_frame *frame = overlap->exact->frame;
     const pir_surface *surface = overlap->surface;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
     if (facet->faces.p.kind == PIR_FEATURE_FACET)
         return corners_at(overlap, p, facet->faces.p, surface->a,
-                          corners_at(overlap, q, facet->faces.q, surface->b, surface->used));
+                          corners_at(overlap, q, facet->faces.q, surface->b, corners));
     return corners_at(overlap, q, facet->faces.q, surface->b,
-                      corners_at(overlap, p, facet->faces.p, surface->a, surface->used));
+                      corners_at(overlap, p, facet->faces.p, surface->a, corners));
 }
 
 /* The piece that the features at a triangle's corners make, with its normal on the triangle's outer side. */
@@ -350,7 +339,7 @@ static bool take_facet(const struct overlap *overlap, uint32_t t, struct found *
         *facet = same.facet;
     else if (!pir_facet_prove(overlap->exact, piece, facet))
         return false;
-    uint32_t corners = corners_in(overlap, facet);
+    uint32_t corners = corners_in(overlap, facet, overlap->surface->used);
     if (!(overlap->room->loops->within(overlap->surface, corners) >> t & 1))
         return false;
     if (add_facet(overlap, corners, found) && has_same) {
@@ -364,7 +353,7 @@ static bool take_facet(const struct overlap *overlap, uint32_t t, struct found *
 static void find_corner(const struct overlap *overlap, uint32_t corner, struct found *found) {
     for (uint32_t i = 0; i < found->count; i++) {
         found->corners[i] &= ~(1u << corner);
-        found->corners[i] |= (uint32_t)is_in(overlap, corner, &found->facet[i]) << corner;
+        found->corners[i] |= corners_in(overlap, &found->facet[i], 1u << corner);
     }
 }
 
@@ -474,7 +463,7 @@ static bool add_at_foot(const struct overlap *overlap, uint32_t t, pir_vec3 alon
         if (found->count == MOST_FACETS)
             return false;
         found->facet[found->count] = about.facet[i];
-        add_facet(overlap, corners_in(overlap, &about.facet[i]), found);
+        add_facet(overlap, corners_in(overlap, &about.facet[i], overlap->surface->used), found);
     }
     found->radius[place_of(found, &about.facet[0])] = about.radius;
     return true;
@@ -537,7 +526,7 @@ static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
     found.aside = found.least.some = false;
     if (overlap->task->has_same) {
         found.facet[0] = overlap->task->same.facet;
-        add_facet(overlap, corners_in(overlap, &found.facet[0]), &found);
+        add_facet(overlap, corners_in(overlap, &found.facet[0], overlap->surface->used), &found);
     }
     for (uint32_t added = 0; added <= MOST_ADDED;) {
         double bound = bound_of(overlap, &found.least);

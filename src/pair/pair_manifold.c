@@ -2,9 +2,6 @@
 /* Contact manifolds of pairs: those of query/contact/manifold.h, brought to Q's frame and back. */
 #include "query/contact/manifold.h"
 
-#include <stddef.h>
-#include <string.h>
-
 #include "pair/pair.h"
 
 static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
@@ -32,24 +29,6 @@ static void to_world(const pir_workspace *workspace, const pir_query_result *ans
     }
 }
 
-/* Whether two rows of eight bytes each are the same, without a branch per entry: they nearly always are. */
-static inline bool is_same(const void *a, const void *b, size_t count) {
-    uint64_t apart = 0;
-    for (size_t i = 0; i < count; i++) {
-        uint64_t of_a, of_b;
-        memcpy(&of_a, (const char *)a + sizeof of_a * i, sizeof of_a);
-        memcpy(&of_b, (const char *)b + sizeof of_b * i, sizeof of_b);
-        apart |= of_a ^ of_b;
-    }
-    return apart == 0;
-}
-
-/* Whether the poses of a call are those of the last one to the bit. */
-static inline bool is_in_place(const pir_workspace *workspace, const pir_pair_input *input) {
-    _Static_assert(offsetof(pir_pair_input, pose_q) == sizeof(pir_pose) && sizeof(pir_pose) % 8 == 0, "one row");
-    return is_same((const char *)input + offsetof(pir_pair_input, pose_p), workspace->pose, sizeof workspace->pose / 8);
-}
-
 /*
  * Begins a call that may follow one on this pair in this workspace: at the same poses it uses what that one
  * made. Bodies that stay apart need no frame.
@@ -60,7 +39,8 @@ static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pai
     if (!needs_frame && pir_pair_stays_apart(pair, input, 0))
         return PIR_OK;
     // bits may differ where numbers do not: then it begins anew
-    if (!pir_pair_is_at(pair, workspace) || !is_in_place(workspace, input))
+    if (!pir_pair_is_at(pair, workspace) || !pir_pose_is_same(&input->pose_p, &workspace->pose[0]) ||
+        !pir_pose_is_same(&input->pose_q, &workspace->pose[1]))
         return pir_pair_begin(pair, workspace, input);
     return pir_pair_check(input);
 }

@@ -129,13 +129,6 @@ static void list_lines(const pir_body *body, pir_axes *axes) {
     }
 }
 
-/* Lists what the loops read of a body. */
-static void fill(const pir_body *body, mp_limb_t *room, pir_axes *axes) {
-    list_vertices(body, &axes->lanes);
-    list_lines(body, axes);
-    axes->is_few = find_along(body->polytope, room, axes);
-}
-
 /* Makes the axes of a body; NULL when out of memory. */
 static pir_axes *make(const pir_polytope *p, int exponent, const pir_body *body) {
     const pir_allocator *a = &p->allocator;
@@ -144,7 +137,9 @@ static pir_axes *make(const pir_polytope *p, int exponent, const pir_body *body)
     mp_limb_t *room = PIR_NEW(a, mp_limb_t, limbs);
     if (made && room) {
         made->attachment = (pir_attachment){.kind = &an_axes, .key = exponent, .destroy = destroy};
-        fill(body, room, made);
+        list_vertices(body, &made->lanes);
+        list_lines(body, made);
+        made->is_few = find_along(p, room, made);
     } else {
         PIR_FREE(a, made, 1);
         made = NULL;

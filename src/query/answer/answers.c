@@ -225,7 +225,8 @@ static void answer_in_region(pir_query *query, const pir_placement *placement, p
     if (result->state == PIR_OUTSIDE) {
         pir_piece_keep(cache, least.facet.piece);
     } else {
-        pir_result_depth(&query->exact, placement, &least.facet, result);
+        pir_result_depth_of(&query->exact, placement, &least.facet,
+                            pir_facet_slack(&query->exact, placement, &least.facet), result);
         pir_piece_keep(cache, least.facet.piece);
         if (cache)
             cache->points = 0;

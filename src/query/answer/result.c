@@ -90,11 +90,6 @@ void pir_result_depth_at(const pir_frame *frame, pir_vec3 normal, double slack, 
     set_points(result, pir_frame_world(frame, touch->point_q));
 }
 
-void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
-                      pir_query_result *result) {
-    pir_result_depth_of(exact, placement, facet, pir_facet_slack(exact, placement, facet), result);
-}
-
 void pir_result_depth_of(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                          pir_query_result *result) {
     const pir_frame *frame = exact->frame;

@@ -49,11 +49,7 @@ void pir_result_beyond(pir_query_result *result);
 /* The best distance so far, of a descent that found no nearest point. */
 void pir_result_unfinished(const pir_frame *frame, const pir_simplex *simplex, pir_query_result *result);
 
-/* `facet` is the one of least slack. */
-void pir_result_depth(pir_exact *exact, const pir_placement *placement, const pir_facet *facet,
-                      pir_query_result *result);
-
-/* The depth, given the slack as pir_facet_slack gives it. */
+/* The depth: the facet of least slack, and that as pir_facet_slack gives it. */
 void pir_result_depth_of(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,
                          pir_query_result *result);
 

@@ -35,7 +35,7 @@ void pir_search_init(pir_search *search, pir_exact *exact, const pir_pairing *pa
 
 void pir_search_add_rows(pir_search *search, pir_layout *layout) {
     uint32_t count = search->groups.count;
-    pir_groups_add_rows(&search->groups, layout);
+    pir_layout_add(layout, (pir_layout_row)PIR_ROW(search->groups.at, count));
     pir_bounds_add_rows(&search->bounds, &search->groups, layout);
     pir_layout_add(layout, (pir_layout_row)PIR_ROW(search->slack, count));
     pir_layout_add(layout, (pir_layout_row)PIR_ROW(search->looked, count));

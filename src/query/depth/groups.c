@@ -78,10 +78,6 @@ void pir_groups_set_lists(pir_groups *groups, const pir_group_lists *const lists
     groups->count = lists[0]->count + lists[1]->count;
 }
 
-void pir_groups_add_rows(pir_groups *groups, pir_layout *layout) {
-    pir_layout_add(layout, (pir_layout_row)PIR_ROW(groups->at, groups->count));
-}
-
 void pir_groups_fill(pir_groups *groups) {
     for (uint32_t g = 0; g < groups->count; g++) {
         bool of_q = g >= groups->first_of_q;

@@ -63,9 +63,6 @@ pir_status pir_groups_find_lists(const pir_frame *frame, pir_polytope *const ope
 /* Sets the lists. The number of groups follows from them, and they replace only lists of as many. */
 void pir_groups_set_lists(pir_groups *groups, const pir_group_lists *const lists[2]);
 
-/* Adds the rows of the groups to a layout. */
-void pir_groups_add_rows(pir_groups *groups, pir_layout *layout);
-
 /* Makes the groups anew, with no planes. */
 void pir_groups_fill(pir_groups *groups);
 
