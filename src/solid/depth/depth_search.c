@@ -222,9 +222,9 @@ pir_status pir_depth_search_nearest(pir_depth_search *search, const pir_pair_inp
             continue;
         }
         if (item.kind == PIR_DEPTH_FACET) {
-            const uint32_t part = pir_free_parts_facet(&s->parts, item.number);
-            if (part != PIR_OBSTACLE_NONE)
-                push_part(s, part, item.least);
+            const uint32_t from = pir_free_parts_facet(&s->parts, item.number);
+            for (uint32_t k = from; k < s->parts.count; k++)
+                push_part(s, k, item.least);
             continue;
         }
         const pir_free_part part = s->parts.part[item.number];

@@ -198,12 +198,40 @@ static void add_touching(pir_free_parts *parts, uint32_t part) {
     }
 }
 
+/* A ball that holds a part, by doubles. */
+struct part_ball {
+    double x[3], radius;
+};
+
+static struct part_ball ball_of(const pir_free_parts *parts, const pir_free_part *part) {
+    const pir_obstacle_point *point = parts->obstacle->point;
+    struct part_ball ball = {{0}, 0};
+    for (uint32_t i = 0; i < part->corners; i++)
+        for (int k = 0; k < 3; k++)
+            ball.x[k] += point[parts->corner[part->first + i]].x[k] / part->corners;
+    for (uint32_t i = 0; i < part->corners; i++) {
+        const pir_obstacle_point *p = &point[parts->corner[part->first + i]];
+        const double to[3] = {p->x[0] - ball.x[0], p->x[1] - ball.x[1], p->x[2] - ball.x[2]};
+        ball.radius = fmax(ball.radius, sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]) + p->err);
+    }
+    return ball;
+}
+
+/* Whether doubles prove that all of a ball is below a plane. */
+static inline bool is_below(const struct part_ball *ball, const pir_obstacle_plane *f) {
+    return f->d - (f->n[0] * ball->x[0] + f->n[1] * ball->x[1] + f->n[2] * ball->x[2]) >
+           ball->radius + f->err + 0x1p-46;
+}
+
 uint32_t pir_free_parts_subtract(pir_free_parts *parts, uint32_t part, const pir_obstacle_sum *sum) {
     const pir_obstacle *o = parts->obstacle;
     // what is left below all planes so far is in no list; parts that are left are those from here on, but for it
     const uint32_t from = parts->count;
     uint32_t rest = part, kept = from;
+    struct part_ball ball = ball_of(parts, &parts->part[part]);
     for (uint32_t f = sum->first; f < sum->first + sum->count && o->status == PIR_OK; f++) {
+        if (is_below(&ball, &o->plane[f]))
+            continue;
         const uint32_t half = pir_obstacle_half(f, false);
         const unsigned sides = sides_of(parts, rest, half);
         if (!(sides & 1)) {
@@ -223,6 +251,7 @@ uint32_t pir_free_parts_subtract(pir_free_parts *parts, uint32_t part, const pir
         rest = parts->count - 1;
         // `rest` is no part that is left: marked by its lack of a nearest point
         parts->part[rest].nearest = PIR_OBSTACLE_NONE;
+        ball = ball_of(parts, &parts->part[rest]);
     }
     for (uint32_t k = from; k < parts->count && o->status == PIR_OK; k++)
         if (parts->part[k].nearest != PIR_OBSTACLE_NONE)
@@ -247,47 +276,98 @@ static void begin_square(pir_free_parts *parts, uint32_t plane) {
     }
 }
 
-/* The facet as a copy of a facet of P or Q, moved by a vertex, or the parallelogram of two edges: the sums of vertices
- * that are its corners, in turn; whether they are counter-clockwise from above. In A', which is reflected, facets are
- * walked the other way round, and edges lead from their target to their origin. */
-static bool add_corners(pir_free_parts *parts, uint32_t plane) {
+/* The features of a facet that is a copy of a facet of P or Q, moved by a vertex, or the parallelogram of two edges:
+ * corners, sums of vertices, in turn, and in `sign` of each whether it, bit 0, and the side that begins there, bit 1,
+ * are inner. In A', which is reflected, facets are walked the other way round, and edges lead from target to origin. */
+struct copy_features {
+    bool forward; /* the corners are counter-clockwise from above */
+    bool inner;   /* the whole is */
+};
+
+static void add_feature(pir_free_parts *parts, uint32_t a, uint32_t b, bool inner_side) {
     pir_obstacle *o = parts->obstacle;
-    const pir_obstacle_plane f = o->plane[plane];
-    const uint32_t pieces_q = o->frame.body[1].of->count, piece[2] = {f.pair / pieces_q, f.pair % pieces_q};
-    const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
-    const uint32_t first_p = p->of->vertex_start[piece[0]], first_q = q->of->vertex_start[piece[1]];
-    if (f.kind == PIR_OBSTACLE_EDGES) {
-        const pir_framed_edge e = p->edge[p->edge_start[piece[0]] + f.p], g = q->edge[q->edge_start[piece[1]] + f.q];
-        const uint32_t corner[4][2] = {
-            {e.origin, g.origin}, {e.target, g.origin}, {e.target, g.target}, {e.origin, g.target}};
-        for (int i = 0; i < 4; i++)
-            add_corner(parts, pir_obstacle_add(o, PIR_OBSTACLE_VERTICES, corner[i][0], corner[i][1], PIR_OBSTACLE_NONE),
-                       0);
-        return f.turned;
+    const pir_shared_features *p = &o->frame.body[0].shared, *q = &o->frame.body[1].shared;
+    const uint32_t i = parts->part[parts->count - 1].corners;
+    if (!pir_obstacle_grow(o, (void **)&parts->sign, &parts->sign_room, i, sizeof *parts->sign))
+        return;
+    const bool inner = p->inner_vertex[p->vertex[a]] || q->inner_vertex[q->vertex[b]];
+    parts->sign[i] = (int8_t)(inner | inner_side << 1);
+    add_corner(parts, pir_obstacle_add(o, PIR_OBSTACLE_VERTICES, a, b, PIR_OBSTACLE_NONE), 0);
+}
+
+static struct copy_features add_edge_features(pir_free_parts *parts, const pir_obstacle_plane *f,
+                                              const uint32_t piece[2]) {
+    const pir_framed_body *p = &parts->obstacle->frame.body[0], *q = &parts->obstacle->frame.body[1];
+    const pir_framed_edge *e = &p->edge[p->edge_start[piece[0]] + f->p], *g = &q->edge[q->edge_start[piece[1]] + f->q];
+    const bool *of_p = p->shared.inner_vertex, *of_q = q->shared.inner_vertex;
+    add_feature(parts, e->origin, g->origin, e->inner || of_q[q->shared.vertex[g->origin]]);
+    add_feature(parts, e->target, g->origin, g->inner || of_p[p->shared.vertex[e->target]]);
+    add_feature(parts, e->target, g->target, e->inner || of_q[q->shared.vertex[g->target]]);
+    add_feature(parts, e->origin, g->target, g->inner || of_p[p->shared.vertex[e->origin]]);
+    return (struct copy_features){.forward = f->turned, .inner = e->inner || g->inner};
+}
+
+static struct copy_features add_facet_features(pir_free_parts *parts, const pir_obstacle_plane *f,
+                                               const uint32_t piece[2]) {
+    const int side = f->kind == PIR_OBSTACLE_Q_FACET;
+    const pir_framed_body *own = &parts->obstacle->frame.body[side], *other = &parts->obstacle->frame.body[1 - side];
+    const pir_polytope *of = own->of->piece[piece[side]];
+    const uint32_t face = side ? f->q : f->p, first = own->of->vertex_start[piece[side]];
+    const uint32_t vertex = other->of->vertex_start[piece[1 - side]] + (side ? f->p : f->q);
+    const bool inner = other->shared.inner_vertex[other->shared.vertex[vertex]];
+    for (uint32_t i = of->loop_start[face]; i < of->loop_start[face + 1]; i++) {
+        const uint32_t v = first + of->origin[of->loop[i]], edge = own->edge_start[piece[side]] + of->edge[of->loop[i]];
+        add_feature(parts, side ? vertex : v, side ? v : vertex, inner || own->edge[edge].inner);
     }
-    const bool of_q = f.kind == PIR_OBSTACLE_Q_FACET;
-    const pir_polytope *own = of_q ? q->of->piece[piece[1]] : p->of->piece[piece[0]];
-    const uint32_t face = of_q ? f.q : f.p;
-    for (uint32_t i = own->loop_start[face]; i < own->loop_start[face + 1]; i++) {
-        const uint32_t v = own->origin[own->loop[i]];
-        const uint32_t a = first_p + (of_q ? f.p : v), b = first_q + (of_q ? v : f.q);
-        add_corner(parts, pir_obstacle_add(o, PIR_OBSTACLE_VERTICES, a, b, PIR_OBSTACLE_NONE), 0);
+    return (struct copy_features){.forward = side,
+                                  .inner = inner || own->shared.inner_face[own->of->face_start[piece[side]] + face]};
+}
+
+/* Puts the sides and corners of an inner facet in its place that are not inner themselves. */
+static void add_rim(pir_free_parts *parts, uint32_t facet) {
+    const pir_free_part of = parts->part[facet];
+    for (uint32_t i = 0; i < of.corners; i++) {
+        const uint32_t *corner = parts->corner + of.first, *wall = parts->wall + of.first;
+        const uint32_t h = before(&of, i), j = next_of(&of, i);
+        const uint32_t ends[2] = {corner[i], corner[j]}, walls[3] = {wall[i], wall[h], wall[j]};
+        if (!(parts->sign[i] & 2)) {
+            add_segment(parts, of.plane, ends, walls);
+        } else if (!(parts->sign[i] & 1) && (parts->sign[h] & 2)) {
+            begin(parts, of.plane);
+            add_corner(parts, ends[0], PIR_OBSTACLE_NONE);
+        }
     }
-    return of_q;
+    for (uint32_t k = facet + 1; k < parts->count && parts->obstacle->status == PIR_OK; k++)
+        parts->part[k - 1] = parts->part[k];
+    parts->count -= parts->obstacle->status == PIR_OK;
 }
 
 /* The facet whose corners are sums of vertices, with a wall through each side. */
 static uint32_t add_copy(pir_free_parts *parts, uint32_t plane) {
     pir_obstacle *o = parts->obstacle;
+    const pir_obstacle_plane f = o->plane[plane];
+    const uint32_t pieces_q = o->frame.body[1].of->count, piece[2] = {f.pair / pieces_q, f.pair % pieces_q};
     const uint32_t made = begin(parts, plane);
-    const bool forward = add_corners(parts, plane);
+    if (o->status != PIR_OK)
+        return made;
+    const struct copy_features features =
+        f.kind == PIR_OBSTACLE_EDGES ? add_edge_features(parts, &f, piece) : add_facet_features(parts, &f, piece);
+    bool all = features.inner;
+    for (uint32_t i = 0; i < parts->part[made].corners && all; i++)
+        all = parts->sign[i] == 3;
+    if (all || o->status != PIR_OK) {
+        parts->count = made;
+        return made;
+    }
     for (uint32_t i = 0; o->status == PIR_OK && i < parts->part[made].corners; i++) {
         const pir_free_part *part = &parts->part[made];
         const uint32_t *corner = parts->corner + part->first;
-        const uint32_t wall = pir_obstacle_add_wall(o, plane, corner[i], corner[next_of(part, i)], !forward);
+        const uint32_t wall = pir_obstacle_add_wall(o, plane, corner[i], corner[next_of(part, i)], !features.forward);
         parts->wall[part->first + i] = pir_obstacle_half(wall, false);
     }
-    return o->status == PIR_OK ? measure(parts, made) : PIR_OBSTACLE_NONE;
+    if (features.inner && o->status == PIR_OK)
+        add_rim(parts, made);
+    return measure(parts, made);
 }
 
 uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane) {
@@ -305,7 +385,7 @@ uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane) {
         const unsigned sides = sides_of(parts, rest, half);
         if (sides == 2) {
             parts->count = from;
-            return PIR_OBSTACLE_NONE;
+            return from;
         }
         if (sides != 3)
             continue;
@@ -313,7 +393,7 @@ uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane) {
         rest = parts->count - 1;
     }
     if (o->status != PIR_OK)
-        return PIR_OBSTACLE_NONE;
+        return from;
     parts->part[from] = parts->part[rest];
     parts->count = from + 1;
     return measure(parts, from);

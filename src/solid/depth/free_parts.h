@@ -28,7 +28,8 @@ typedef struct pir_free_parts {
 
 void pir_free_parts_finish(pir_free_parts *parts);
 
-/* The facet that a plane of a sum has, as a part; none where it has no area. */
+/* Adds the facet that a plane of a sum has, but for what is inner (shared_features.h): as one part, as its sides and
+ * corners, or none. They are those from the returned number on. */
 uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane);
 
 /* Adds the parts of a part that the inside of a sum leaves: those from the returned number on. */

@@ -30,9 +30,11 @@ static void fill_edges(pir_framed_body *body, uint32_t i) {
     for (uint32_t e = 0; e < piece->edge_count; e++) {
         const uint32_t half = piece->edge_half[e], at = body->edge_start[i] + e;
         const pir_vec3 along = piece->direction[half];
-        body->edge[at] =
-            (pir_framed_edge){c->face_start[i] + piece->arc_ends[e].from, c->face_start[i] + piece->arc_ends[e].to,
-                              c->vertex_start[i] + piece->origin[half], c->vertex_start[i] + piece->target[half]};
+        body->edge[at] = (pir_framed_edge){
+            c->face_start[i] + piece->arc_ends[e].from, c->face_start[i] + piece->arc_ends[e].to,
+            c->vertex_start[i] + piece->origin[half], c->vertex_start[i] + piece->target[half], false};
+        body->edge[at].inner = pir_shared_features_inner_edge(&body->shared, body->shared.vertex[body->edge[at].origin],
+                                                              body->shared.vertex[body->edge[at].target]);
         body->own_along[at][0] = along.x;
         body->own_along[at][1] = along.y;
         body->own_along[at][2] = along.z;

@@ -22,6 +22,7 @@
 /* An edge of a piece: its facets and its ends, by their numbers in the body. */
 typedef struct pir_framed_edge {
     uint32_t left, right, origin, target;
+    bool inner; /* see shared_features.h */
 } pir_framed_edge;
 
 /* A body where it is: vertices and faces in the order of its compound, edges likewise. */

@@ -156,6 +156,52 @@ static void find_incidences(pir_shared_features *s, const pir_compound *c, const
     }
 }
 
+/* Whether a piece's face holds a vertex of the body that is in its plane, as far as doubles and planes tell. */
+static bool holds(const pir_shared_features *s, const pir_compound *c, uint32_t face, uint32_t vertex) {
+    const uint32_t i = piece_of(c->face_start, face);
+    const double *x = c->vertex[vertex];
+    for (uint32_t g = c->face_start[i]; g < c->face_start[i + 1]; g++) {
+        const double *n = c->face[g].normal, over = n[0] * x[0] + n[1] * x[1] + n[2] * x[2] - c->face[g].offset;
+        if (over > -0x1p-40 * c->reach && !pir_shared_features_on(s, s->plane[g], s->vertex[vertex]))
+            return false;
+    }
+    return true;
+}
+
+/* Whether one face of another piece covers all of a face from the other side. */
+static bool is_inner_face(const pir_shared_features *s, const pir_compound *c, uint32_t f) {
+    const uint32_t i = piece_of(c->face_start, f), face = f - c->face_start[i];
+    const pir_polytope *piece = c->piece[i];
+    const double *n = c->face[f].normal;
+    for (uint32_t g = 0; g < c->face_start[c->count]; g++) {
+        const double *m = c->face[g].normal;
+        if (s->plane[g] != s->plane[f] || n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 0)
+            continue;
+        bool covered = true;
+        for (uint32_t k = piece->loop_start[face]; k < piece->loop_start[face + 1] && covered; k++)
+            covered = holds(s, c, g, c->vertex_start[i] + piece->origin[piece->loop[k]]);
+        if (covered)
+            return true;
+    }
+    return false;
+}
+
+static void find_inner(pir_shared_features *s, const pir_compound *c) {
+    for (uint32_t f = 0; f < c->face_start[c->count]; f++) {
+        s->inner_face[f] = is_inner_face(s, c, f);
+        s->outer_plane[s->plane[f]] = s->outer_plane[s->plane[f]] || !s->inner_face[f];
+    }
+    for (uint32_t v = 0; v < s->vertices; v++)
+        s->inner_vertex[v] = pir_shared_features_inner_edge(s, v, v);
+}
+
+bool pir_shared_features_inner_edge(const pir_shared_features *shared, uint32_t a, uint32_t b) {
+    for (uint32_t p = 0; p < shared->planes; p++)
+        if (shared->outer_plane[p] && pir_shared_features_on(shared, p, a) && pir_shared_features_on(shared, p, b))
+            return false;
+    return true;
+}
+
 bool pir_shared_features_init(pir_shared_features *shared, const pir_compound *compound,
                               const pir_allocator *allocator) {
     pir_shared_features *s = shared;
@@ -171,9 +217,14 @@ bool pir_shared_features_init(pir_shared_features *shared, const pir_compound *c
         number_planes(s, compound, first_plane, &e);
         s->words = s->vertices / 64 + 1;
         s->on = PIR_ZEROED(allocator, uint64_t, (size_t)s->planes * s->words);
-        done = s->on != NULL;
-        if (done)
+        s->inner_face = PIR_ZEROED(allocator, bool, faces);
+        s->outer_plane = PIR_ZEROED(allocator, bool, s->planes);
+        s->inner_vertex = PIR_ZEROED(allocator, bool, s->vertices);
+        done = s->on && s->inner_face && s->outer_plane && s->inner_vertex;
+        if (done) {
             find_incidences(s, compound, first_vertex, first_plane, &e);
+            find_inner(s, compound);
+        }
         scratch_clear(&e);
     }
     PIR_FREE(allocator, first_plane, faces);
@@ -186,4 +237,7 @@ void pir_shared_features_finish(pir_shared_features *shared, const pir_compound 
     PIR_FREE(allocator, shared->vertex, compound->vertex_start[compound->count]);
     PIR_FREE(allocator, shared->plane, compound->face_start[compound->count]);
     PIR_FREE(allocator, shared->on, (size_t)shared->planes * shared->words);
+    PIR_FREE(allocator, shared->inner_face, compound->face_start[compound->count]);
+    PIR_FREE(allocator, shared->outer_plane, shared->planes);
+    PIR_FREE(allocator, shared->inner_vertex, shared->vertices);
 }

@@ -12,9 +12,12 @@
 typedef struct pir_shared_features {
     uint32_t vertices, planes; /* different ones */
     uint32_t *vertex,
-        *plane;     /* per vertex and face of the compound: its number here; a plane's whichever way it faces */
-    uint64_t *on;   /* bit v of row p: vertex v lies in plane p */
-    uint32_t words; /* of a row */
+        *plane;         /* per vertex and face of the compound: its number here; a plane's whichever way it faces */
+    uint64_t *on;       /* bit v of row p: vertex v lies in plane p */
+    uint32_t words;     /* of a row */
+    bool *inner_face;   /* per face of the compound */
+    bool *outer_plane;  /* per plane: it has a face that is not inner */
+    bool *inner_vertex; /* per vertex here */
 } pir_shared_features;
 
 /* False when out of memory; pir_shared_features_finish then frees what is there. */
@@ -22,6 +25,9 @@ bool pir_shared_features_init(pir_shared_features *shared, const pir_compound *c
                               const pir_allocator *allocator);
 void pir_shared_features_finish(pir_shared_features *shared, const pir_compound *compound,
                                 const pir_allocator *allocator);
+
+/* Whether an edge between two vertices is inner, by their numbers here. */
+bool pir_shared_features_inner_edge(const pir_shared_features *shared, uint32_t a, uint32_t b);
 
 /* Whether a vertex lies in a plane, by their numbers here. */
 static inline bool pir_shared_features_on(const pir_shared_features *shared, uint32_t plane, uint32_t vertex) {

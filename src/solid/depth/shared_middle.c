@@ -91,7 +91,7 @@ static void cut(struct touching_face *face, const double a[2], const double b[2]
     const double length = hypot(b[0] - a[0], b[1] - a[1]);
     double side[2 * CORNERS];
     for (uint32_t i = 0; i < face->count; i++)
-        side[i] = turn_of(a, b, face->at[i]) / length + 0x1p-44;
+        side[i] = turn_of(a, b, face->at[i]) / length + 0x1p-48;
     for (uint32_t i = 0; i < face->count && rest.count + 2 <= 2 * CORNERS; i++) {
         const uint32_t j = i + 1 < face->count ? i + 1 : 0;
         if (side[i] >= 0) {
