@@ -10,6 +10,7 @@
 
 struct outcome {
     pir_solid_distance distance;
+    pir_solid_depth depth;
     pir_impact impact;
     uint32_t pieces[2];
     double seconds;     /* of the answers, pieces being there */
@@ -36,6 +37,29 @@ static void add_vector(struct json *json, cJSON *parent, const char *name, pir_v
     json_add_numbers(json, parent, name, (const double[]){v.x + 0.0, v.y + 0.0, v.z + 0.0}, 3);
 }
 
+static void add_feature(struct json *json, cJSON *parent, const char *name, pir_feature feature) {
+    static const char *const kinds[] = {"none", "vertex", "edge", "facet"};
+    cJSON *object = json_add_object(json, parent, name);
+    json_add_text(json, object, "kind", kinds[feature.kind]);
+    json_add_number(json, object, "index", feature.index);
+}
+
+/* The depth, and the facet of a sum of pieces that P leaves by. */
+static void add_depth(struct json *json, const pir_solid_depth *depth) {
+    cJSON *closest = json_add_object(json, json->root, "closest");
+    add_vector(json, closest, "p", depth->point_p);
+    add_vector(json, closest, "q", depth->point_q);
+    add_vector(json, json->root, "normal", depth->normal);
+    cJSON *penetration = json_add_object(json, json->root, "penetration");
+    json_add_number(json, penetration, "depth", depth->depth);
+    add_vector(json, penetration, "normal", depth->normal);
+    json_add_number(json, penetration, "facets", depth->facets);
+    json_add_numbers(json, penetration, "pieces", (const double[]){depth->facet[0].piece_p, depth->facet[0].piece_q},
+                     2);
+    add_feature(json, penetration, "p", depth->facet[0].witness.p);
+    add_feature(json, penetration, "q", depth->facet[0].witness.q);
+}
+
 static bool print_json(const struct args *args, const struct outcome *outcome, bool casts) {
     const pir_query_result *result = &outcome->distance.result;
     struct json json = json_new();
@@ -49,6 +73,8 @@ static bool print_json(const struct args *args, const struct outcome *outcome, b
         add_vector(&json, closest, "p", result->point_p);
         add_vector(&json, closest, "q", result->point_q);
         add_vector(&json, json.root, "normal", result->normal);
+    } else {
+        add_depth(&json, &outcome->depth);
     }
     if (casts) {
         cJSON *cast = json_add_object(&json, json.root, "cast");
@@ -67,8 +93,11 @@ static void print_text(const struct args *args, const struct outcome *outcome, b
     say("%s against %s, as solids: %s\n", args->positional[0], args->positional[1], state_names[result->state]);
     if (result->state != PIR_INSIDE) {
         say("  %-12s %.17g\n", "distance", result->distance);
-        say("  %-12s %.17g, %.17g, %.17g\n", "normal", result->normal.x, result->normal.y, result->normal.z);
+    } else {
+        say("  %-12s %.17g\n", "depth", outcome->depth.depth);
     }
+    const pir_vec3 normal = result->state == PIR_INSIDE ? outcome->depth.normal : result->normal;
+    say("  %-12s %.17g, %.17g, %.17g\n", "normal", normal.x, normal.y, normal.z);
     if (casts && outcome->impact.outcome != PIR_CAST_MISS)
         say("  %-12s %s, time %.17g\n", "cast", cast_names[outcome->impact.outcome], outcome->impact.time);
     else if (casts)
@@ -87,6 +116,8 @@ static pir_status ask(pir_solid_query *query, pir_workspace *workspace, const pi
     const int64_t start = clock_now();
     outcome->option = "--translate";
     pir_status status = pir_solid_query_distance(query, workspace, input, &outcome->distance);
+    if (status == PIR_OK && outcome->distance.result.state == PIR_INSIDE)
+        status = pir_solid_query_depth(query, workspace, input, &outcome->depth);
     if (status == PIR_OK && motion)
         outcome->option = "--cast";
     if (status == PIR_OK && motion)

@@ -108,6 +108,18 @@ class Solid(CommandTest):
         self.assertIn("inside", self.good("query", cube, model, "--solid", "--translate", "0.25,0.25,0"))
         self.bad("query", cube, model, "--solid", "--translate", "1,1,0", "--direction", "1,0,0", says="not for solids")
 
+    def test_depth_of_solids_is_not_that_of_a_pair_of_pieces(self):
+        # an L of three unit squares; a unit cube in its corner leaves by the notch, or by the nearest side
+        model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
+        told = self.data("query", cube, model, "--solid", "--translate", "0.25,0.25,0.125")
+        depth = told["penetration"]
+        self.assertEqual(told["state"], "inside")
+        self.assertEqual(told["normal"], depth["normal"])
+        moved = ",".join(repr(x + depth["depth"] * n) for x, n in zip((0.25, 0.25, 0.125), depth["normal"]))
+        self.assertEqual(self.data("query", cube, model, "--solid", "--translate", moved)["state"], "boundary")
+        self.assertIn(depth["facets"], (1, 2, 3))
+        self.assertIn("depth", self.good("query", cube, model, "--solid", "--translate", "0.25,0.25,0.125"))
+
     def test_text_says_what_json_does(self):
         model, cube = self.file("l.off", prism()), "shape:box?x=1&y=1&z=1"
         text = self.good("query", cube, model, "--solid", "--translate", "2,2,0.5", "--cast=-2,0,0")
