@@ -135,7 +135,8 @@ typedef struct pir_solid_depth {
  * ret_depth         `normal` is the unit vector along which P is moved by `depth`.
  *
  * Memory: made when first asked for, 200 bytes for each vertex, edge and facet of a piece, then 120 bytes for each
- * facet of a sum of pieces that was looked at, and exact numbers.
+ * facet of a sum of pieces that was looked at, and exact numbers. It is kept, and grows to what the largest answer
+ * needs; then no call allocates but GMP, for exact numbers.
  *
  * Cost: that of pir_solid_query_overlap, and O(k · e · f) for the k pairs of pieces that are nearer than the depth,
  * of e and f edges.

@@ -5,7 +5,8 @@
  * Unions of unit cubes: the nearest corner, edge, side or cell of the lattice that no cube of the difference holds
  * inside, found by looking at all of them, in exact numbers. Bodies at any rotations and at aligned ones: the boundary
  * of the exact difference of the open bodies, looked at facet by facet. Every answer's place is where it says, on a
- * facet of the pieces that it names, and the bodies touch there at the points that it gives.
+ * facet of the pieces that it names, and the bodies touch there at the points that it gives. A query that goes
+ * through a motion has the bits of new ones.
  *
  * PIR_TEST_CASES sets how many pairs of unions, or rotations, there are.
  */
@@ -19,6 +20,7 @@
 
 #include "solid/bodies.h"
 #include "solid/models.h"
+#include "support/memory.h"
 #include "support/solid_sums.h"
 #include "support/vectors.h"
 
@@ -436,6 +438,67 @@ static void depths_are_those_of_the_exact_difference(void **state) {
     }
 }
 
+/* --- a motion --- */
+
+enum { FRAMES = 60 };
+
+/* Two bodies of a motion at 1/500 of a turn a frame; the depths of all frames. */
+static void follow(pir_solid_query *query, pir_workspace *workspace, pir_solid_depth ret_depths[FRAMES]) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = (pir_pose){{0.25, -0.5, 0.125, 1}, {1.25, 0.75, 0.5}};
+    for (int i = 0; i < FRAMES; i++) {
+        input.pose_p =
+            pir_pose_integrate(input.pose_p, (pir_vec3){0.003, 0.001, -0.002}, (pir_vec3){0.009, 0.007, -0.005}, 1);
+        assert_int_equal(pir_solid_query_depth(query, workspace, &input, &ret_depths[i]), PIR_OK);
+        assert_true(ret_depths[i].state == PIR_INSIDE);
+    }
+}
+
+static bool are_same(const pir_solid_depth *a, const pir_solid_depth *b) {
+    return memcmp(&a->depth, &b->depth, sizeof a->depth) == 0 &&
+           memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 &&
+           memcmp(&a->point_p, &b->point_p, sizeof a->point_p) == 0 &&
+           memcmp(&a->point_q, &b->point_q, sizeof a->point_q) == 0 && a->facets == b->facets &&
+           memcmp(a->facet, b->facet, a->facets * sizeof *a->facet) == 0;
+}
+
+/* A query that is kept allocates nothing when it goes through a motion again, and the way back has the same bits. */
+static void a_kept_query_allocates_nothing_and_has_the_bits_of_a_new_one(void **state) {
+    (void)state;
+    cells ell = {0};
+    ell.full[0][0][0] = ell.full[1][0][0] = ell.full[2][0][0] = ell.full[0][1][0] = true;
+    test_memory memory = {0};
+    const pir_allocator allocator = test_allocator(&memory);
+    pir_solid *l = solid_of_cells(&ell);
+    pir_pieces *pieces = NULL;
+    pir_solid_query *query = NULL;
+    pir_workspace *workspace = NULL;
+    static pir_solid_depth first[FRAMES], again[FRAMES], single;
+    assert_int_equal(pir_solid_decompose(l, NULL, NULL, &pieces), PIR_OK);
+    assert_int_equal(pir_workspace_create(&allocator, &workspace), PIR_OK);
+    assert_int_equal(pir_solid_query_create(pieces, pieces, &allocator, &query), PIR_OK);
+    follow(query, workspace, first);
+    const uint64_t requests = memory.requests;
+    follow(query, workspace, again);
+    assert_int_equal(memory.requests, requests);
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = (pir_pose){{0.25, -0.5, 0.125, 1}, {1.25, 0.75, 0.5}};
+    for (int i = 0; i < FRAMES; i++) {
+        pir_solid_query *fresh = NULL;
+        input.pose_p =
+            pir_pose_integrate(input.pose_p, (pir_vec3){0.003, 0.001, -0.002}, (pir_vec3){0.009, 0.007, -0.005}, 1);
+        assert_int_equal(pir_solid_query_create(pieces, pieces, NULL, &fresh), PIR_OK);
+        assert_int_equal(pir_solid_query_depth(fresh, workspace, &input, &single), PIR_OK);
+        assert_true(are_same(&first[i], &single) && are_same(&again[i], &single));
+        pir_solid_query_destroy(fresh);
+    }
+    pir_solid_query_destroy(query);
+    pir_workspace_destroy(workspace);
+    pir_pieces_destroy(pieces);
+    pir_solid_release(l);
+    assert_true(memory.blocks == 0 && !memory.wrong_size);
+}
+
 static void directions_that_are_none_are_refused(void **state) {
     (void)state;
     cells cube = {0};
@@ -467,6 +530,7 @@ int main(void) {
         cmocka_unit_test(depths_of_cubes_are_those_of_the_lattice),
         cmocka_unit_test(ways_out_of_cubes_are_those_of_the_lattice),
         cmocka_unit_test(depths_are_those_of_the_exact_difference),
+        cmocka_unit_test(a_kept_query_allocates_nothing_and_has_the_bits_of_a_new_one),
         cmocka_unit_test(directions_that_are_none_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
