@@ -83,6 +83,19 @@ static const struct option decompose_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_clash;
+static const struct option clash_options[] = {
+    {"--within", "D", "of many solids, also tell those that are apart by at most this length (0)"},
+    {"--tolerance", "T", "rank clashes last, as minor, that are at most this deep; it decides nothing (0)"},
+    {"-o", "FILE", "draw the solids, those that clash in colour, to FILE, .svg"},
+    COMMON_OPTIONS,
+};
+
+command_run cmd_certify;
+static const struct option certify_options[] = {
+    MODEL_OPTIONS,
+};
+
 command_run cmd_simplify;
 static const struct option simplify_options[] = {
     {"-o", "FILE", "write the polytope inside to FILE: .off, .obj, .stl, .ply or .svg"},
@@ -373,6 +386,33 @@ const struct command command_table[] = {
         .options = decompose_options,
         .examples = {{"decompose shape:cube -o pieces.obj", "one object a piece"},
                      {"decompose shape:cube --tolerance 0.01 --json", "fewer, and how far they reach out"}},
+    },
+    {
+        .name = "clash",
+        .run = CORE(cmd_clash),
+        .positional = {"A|FOLDER", "B"},
+        .required = 1,
+        .summary = "what two solids, or any two of many, have in common: verdicts on clashes, exactly",
+        .details = "A and B are solids where they stand. One argument is a folder of models, or an OBJ file of "
+                   "several objects: all pairs are looked at. Each is apart, touching, or a clash: protrusion, "
+                   "piercing, envelope or duplicate. A model that is no solid is named, and the others are answered; "
+                   "the exit status is 2 then.",
+        .options = clash_options,
+        .examples = {{"clash shape:cube shape:cube", "a duplicate"},
+                     {"clash shape:cube shape:geodesic?level=2 -o clash.svg", "with a picture"}},
+    },
+    {
+        .name = "certify",
+        .run = CORE(cmd_certify),
+        .positional = {"PIECES", "MODEL"},
+        .required = 2,
+        .summary = "which volume given pieces add to a solid and lose of it, exactly",
+        .details = "PIECES is an OBJ file of several objects, a folder of models, or one model; each piece is the "
+                   "convex hull of its points, and pieces may overlap, as those of CoACD and V-HACD do. Added is the "
+                   "volume of the pieces without the solid, lost that of the solid without the pieces, both as "
+                   "rationals: nothing is sampled.",
+        .options = certify_options,
+        .examples = {{"certify shape:cube shape:cube", "nothing is added or lost"}},
     },
     {
         .name = "simplify",

@@ -141,3 +141,23 @@ char *objects_text(const char *text, size_t index) {
     free(object);
     return NULL;
 }
+
+char *objects_name(const char *text, size_t index) {
+    struct walk walk = {.text = text};
+    struct line line, last = {"", 0};
+    while (walk_on(&walk, &line)) {
+        if (is_statement(&line, 'o'))
+            last = line;
+        if (is_statement(&line, 'f') && walk.index == index)
+            break;
+    }
+    char *name = malloc(last.length + 32);
+    if (!name)
+        return NULL;
+    const size_t skip = last.length > 0 ? 1 + strspn(last.at + 1, " \t") : 0;
+    if (last.length > skip)
+        sprintf(name, "%.*s", (int)(last.length - skip), last.at + skip);
+    else
+        sprintf(name, "object %zu", index + 1);
+    return name;
+}

@@ -17,4 +17,7 @@ size_t objects_count(const char *text);
  */
 char *objects_text(const char *text, size_t index);
 
+/* The name of object `index` as its line `o` has it, or its number; to be freed, NULL when out of memory. */
+char *objects_name(const char *text, size_t index);
+
 #endif

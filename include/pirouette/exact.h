@@ -12,6 +12,7 @@
 
 #include <pirouette/base.h>
 #include <pirouette/cgm.h>
+#include <pirouette/clash.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
 #include <pirouette/section.h>
@@ -83,6 +84,34 @@ PIR_API pir_status pir_polytope_mass_exact(const pir_polytope *polytope, mpq_t r
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_solid_volume_exact(const pir_solid *solid, mpq_t ret_volume);
+
+/**
+ * The exact volumes of what pieces add to a solid, the union of the pieces without the solid, and of what they lose of
+ * it, the solid without that union, into initialised rationals. Pieces may overlap; those without an inside have no
+ * volume.
+ *
+ * pieces              `count` of them, in the frame of the solid.
+ * options             NULL for the defaults.
+ * ret_added, ret_lost one rational each.
+ *
+ * Cost: for k pieces and m convex pieces of the solid, of bounded size each, O(k · (k + m)) cuts of convex pieces, and
+ * more where many overlap.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_VERSION, PIR_ERR_LIMIT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_certify_exact(const pir_solid *solid, pir_polytope *const *pieces, size_t count,
+                                           const pir_solid_options *options, mpq_t ret_added, mpq_t ret_lost);
+
+/**
+ * The exact volume that two bodies share (clash.h), into an initialised rational.
+ *
+ * a, b  both may be the same.
+ *
+ * Cost: that of pir_clash.
+ *
+ * Errors: those of pir_clash.
+ */
+PIR_API pir_status pir_clash_volume_exact(const pir_clash_body *a, const pir_clash_body *b, mpq_t ret_volume);
 
 /** The exact coordinates of a vertex, into three initialised rationals. O(1). */
 PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t vertex, mpq_t ret_coordinates[3]);

@@ -10,7 +10,7 @@
 const char *page_argument_kind(const char *name) {
     static const char *const kinds[][2] = {
         {"MODEL", "model"},           {"P", "model"},     {"Q", "model"},           {"NAME", "shape"},
-        {"SUBCOMMAND", "subcommand"}, {"ROBOT", "model"}, {"OBSTACLE...", "model"},
+        {"SUBCOMMAND", "subcommand"}, {"ROBOT", "model"}, {"OBSTACLE...", "model"}, {"PIECES", "model"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(kinds[i][0], name) == 0)
