@@ -4,6 +4,7 @@
  *
  *     title, rate, quantum, frames
  *     shapes: points, facets   floats of all pieces; the count of facets, then for each that of its corners and these
+ *     shapes: surface          whether it is a mesh or a height field
  *     shape, kind              a number for each body
  *     motion                   the frames
  *
@@ -57,6 +58,11 @@ void playback_clear(struct playback *playback) {
     *playback = (struct playback){0};
 }
 
+/* The pose of a body of the stage. */
+static pir_pose pose_of(const struct playback *playback, const struct world *world, uint32_t i) {
+    return i < world_count(world) ? world_motion(world, i).pose : playback->stage->body[i].body.pose;
+}
+
 static int64_t whole(double x) {
     return (int64_t)nearbyint(fmin(fmax(x, -NUMBER_MOST), NUMBER_MOST));
 }
@@ -68,8 +74,8 @@ static void add_signed(struct bytes *bytes, int64_t x) {
 static void add_moves(struct playback *playback, const struct world *world) {
     struct bytes moved = {0};
     uint32_t count = 0, last = 0;
-    for (uint32_t i = 0; i < world_count(world); i++) {
-        pir_pose pose = world_motion(world, i).pose;
+    for (uint32_t i = 0; i < playback->stage->body_count; i++) {
+        pir_pose pose = pose_of(playback, world, i);
         const pir_vec3 at = pose.translation;
         const double place[3] = {at.x, at.y, at.z};
         const double quat[4] = {pose.rotation.x, pose.rotation.y, pose.rotation.z, pose.rotation.w};
@@ -226,7 +232,7 @@ static bool print_shape(FILE *file, const struct world_shape *shape) {
         bytes_print(file, points.at, points.size);
         fputs("\",\"facets\":\"", file);
         bytes_print(file, facets.at, facets.size);
-        fputs("\"}", file);
+        fprintf(file, "\",\"surface\":%s}", world_shape_is_surface(shape) ? "true" : "false");
     } else
         complain("simulate: %s", pir_status_text(status));
     free(points.at);

@@ -32,7 +32,7 @@ bool playback_init(struct playback *playback, const struct stage *stage);
 
 void playback_clear(struct playback *playback);
 
-/* Adds a frame: the world as it is. */
+/* Adds a frame: the world as it is. Bodies of the stage beyond those of the world are where the stage has them. */
 bool playback_add(struct playback *playback, const struct world *world);
 
 /* Prints the page; whether what was written arrived is the caller's to see. */
