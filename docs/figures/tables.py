@@ -162,6 +162,20 @@ def mesh_contacts(r):
     return markdown(["body", "field", ">cell", "place", ">triangles near", ">median, µs", ">p99, µs"], rows)
 
 
+def mesh_sliding(r):
+    groups = {}
+    for row in r.mesh_sliding.rows:
+        groups.setdefault((row["floor"], row["body"], row["engine"]), []).append(row)
+    cells = {}
+    for (floor, body, engine), of in groups.items():
+        ghosts, contacts = (sum(int(row[key]) for row in of) for key in ("ghosts", "contacts"))
+        lost = max(float(row["lost"]) for row in of)
+        cells.setdefault((floor, body), {})[engine] = [f"{count(ghosts)} of {count(contacts)}",
+                                                       f"{two(100 * lost)} %" if lost > 1e-6 else "0"]
+    rows = [[*key, *of["box3d"], *of["Pirouette"]] for key, of in cells.items()]
+    return markdown(["floor", "body", ">box3d: ghosts", ">speed off", ">Pirouette: ghosts", ">speed off"], rows)
+
+
 def scene_terrain(r):
     def plain(text):
         return f"{float(text):,.0f}" if float(text) >= 100 else short(float(text))
@@ -315,5 +329,6 @@ def solid_query(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, scene_terrain,
-    mesh_octrees, mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids, solid_query)}
+    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
+    scene_terrain, mesh_octrees, mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids,
+    solid_query)}
