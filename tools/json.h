@@ -15,7 +15,7 @@
 
 struct json {
     cJSON *root; /* an object */
-    bool failed; /* out of memory at some time */
+    bool failed; /* memory ran out once */
 };
 
 /* Starts an object. */

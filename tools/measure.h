@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Nanoseconds since some moment. */
+/* Nanoseconds since a moment that stays the same while the program runs. */
 int64_t clock_now(void);
 
 /* Of a series of times, those that are NaN left out; all NaN when none is left. */

@@ -356,7 +356,7 @@ typedef struct pir_configuration {
  * distance or depth at the slice, where it exceeds what any point of the piece moves by between the two rotations; a
  * direction of the slice that separates at the pose; a facet of the slice that, carried to the pose, covers the
  * translation together with a ball that lies in the difference. What none of them proves is unknown: the pose is nearer
- * to contact than the grid is fine. The share of such poses falls faster than the grid's spacing; docs/slices.md has
+ * to contact than the grid is fine. The share of such poses shrinks faster than the grid's spacing; docs/slices.md has
  * figures. pair.h answers all poses, without slices.
  *
  * pose    of the robot.

@@ -24,7 +24,7 @@ _Static_assert(sizeof(ccd_real_t) == sizeof(double), "libccd must be built for d
  */
 #define PAIR_MEET 1e-9
 
-/* The bound on the steps of a descent, and of libccd: in practice there are some ten. */
+/* The bound on the steps of a descent, and of libccd: in practice about ten are taken. */
 #define PAIR_STEPS 128
 
 #define EXPONENT_LEAST (-1020)

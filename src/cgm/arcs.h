@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The Gaussian map of a polytope cut by the cube: which points lie where, and the pieces that arcs fall into.
+ * The Gaussian map of a polytope cut by the cube: which points lie where, and the pieces that it cuts arcs into.
  *
  * A site is a direction that becomes a vertex: sites 0 to 7 are the corners of the cube, then come the facets' normals
  * that are not at corners, then the points where arcs cross cube edges. A piece is a part of an arc between two sites

@@ -52,15 +52,15 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
  */
 static pir_status bring_near_one(pir_quat q, double c[4]) {
     const double given[4] = {q.x, q.y, q.z, q.w};
-    bool some = false, near = true;
+    bool large = false, near = true;
     for (int k = 0; k < 4; k++) {
         double most = fabs(given[k]);
         c[k] = given[k];
-        some |= most >= 0.5;
+        large |= most >= 0.5;
         near &= most < 1 && (most == 0 || most >= 0x1p-900);
     }
     // most quaternions are there already
-    if (some && near)
+    if (large && near)
         return PIR_OK;
     for (int k = 0; k < 4; k++)
         if (!isfinite(given[k]))

@@ -93,16 +93,16 @@ static bool is_ear(const pir_cut_room *room, uint32_t i) {
     return true;
 }
 
-/* The next ear from corner `i` on, of `left` corners; UINT32_MAX where there is none. */
-static uint32_t next_ear(const pir_cut_room *room, uint32_t i, uint32_t left) {
-    for (uint32_t looked = 0; looked < left; looked++, i = room->after[i])
+/* The next ear from corner `i` on, of `rest` corners; UINT32_MAX where there is none. */
+static uint32_t next_ear(const pir_cut_room *room, uint32_t i, uint32_t rest) {
+    for (uint32_t looked = 0; looked < rest; looked++, i = room->after[i])
         if (room->is_ear[i])
             return i;
     return UINT32_MAX;
 }
 
-static void look_again(const pir_cut_room *room, uint32_t i, uint32_t left) {
-    for (uint32_t looked = 0; looked < left; looked++, i = room->after[i])
+static void look_again(const pir_cut_room *room, uint32_t i, uint32_t rest) {
+    for (uint32_t looked = 0; looked < rest; looked++, i = room->after[i])
         room->is_ear[i] = is_ear(room, i);
 }
 
@@ -117,18 +117,18 @@ static pir_status cut_ears(const uint32_t *corner, uint32_t count, const pir_cut
     }
     look_again(room, 0, count);
     uint32_t from = 0, looks = 0;
-    for (uint32_t left = count; left > 3;) {
-        uint32_t i = next_ear(room, from, left);
+    for (uint32_t rest = count; rest > 3;) {
+        uint32_t i = next_ear(room, from, rest);
         if (i == UINT32_MAX) {
             if (++looks > MOST_LOOKS)
                 return PIR_ERR_FORMAT;
-            look_again(room, from, left);
-            if (next_ear(room, from, left) == UINT32_MAX)
+            look_again(room, from, rest);
+            if (next_ear(room, from, rest) == UINT32_MAX)
                 return PIR_ERR_FORMAT;
             continue;
         }
         uint32_t a = room->before[i], c = room->after[i];
-        uint32_t *t = ret_triangles[count - left--];
+        uint32_t *t = ret_triangles[count - rest--];
         t[0] = corner[a];
         t[1] = corner[i];
         t[2] = corner[c];

@@ -87,8 +87,8 @@ static inline pir_status pir_pair_check(const pir_pair_input *input) {
     // mostly all hold
     if ((p >= 0) & (p < HUGE_VAL) & (q >= 0) & (q < HUGE_VAL) & !isunordered(input->cutoff, input->margin))
         return PIR_OK;
-    bool some = isnan(p) || isnan(q) || isnan(input->cutoff) || isnan(input->margin);
-    return some ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
+    bool is_nan = isnan(p) || isnan(q) || isnan(input->cutoff) || isnan(input->margin);
+    return is_nan ? PIR_ERR_NOT_FINITE : PIR_ERR_ARGUMENT;
 }
 
 /* Whether the bodies are apart by more than a length, as an earlier answer proves. False where the input is wrong. */

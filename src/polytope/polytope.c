@@ -21,7 +21,7 @@
 static pir_layout layout_of(pir_polytope *p) {
     const size_t v = p->vertex_count, e = p->edge_count, f = p->facet_count, h = p->half_count;
     const size_t more = h + PIR_LANES;
-    // a few more of some: vector loads of four doubles, or eight integers, may reach past the last
+    // a few elements more: vector loads of four doubles, or eight integers, may reach past the last
     return (pir_layout){{PIR_ROW(p->ring_start, v + 1), PIR_ROW(p->origin, h),         PIR_ROW(p->target, more),
                          PIR_ROW(p->twin, h),           PIR_ROW(p->left, more),        PIR_ROW(p->edge, h),
                          PIR_ROW(p->edge_half, e),      PIR_ROW(p->loop_start, f + 1), PIR_ROW(p->loop, h),

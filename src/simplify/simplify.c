@@ -11,9 +11,9 @@
 static pir_status check(const pir_simplify_options *options) {
     if (!isfinite(options->error))
         return PIR_ERR_NOT_FINITE;
-    bool some = options->vertices > 0 || options->error > 0;
-    return some && options->error >= 0 && (options->vertices == 0 || options->vertices >= 4) ? PIR_OK
-                                                                                             : PIR_ERR_ARGUMENT;
+    bool is_bounded = options->vertices > 0 || options->error > 0;
+    return is_bounded && options->error >= 0 && (options->vertices == 0 || options->vertices >= 4) ? PIR_OK
+                                                                                                   : PIR_ERR_ARGUMENT;
 }
 
 static pir_status make(pir_measure *measure, pir_polytope *polytope, const pir_simplify_options *options,

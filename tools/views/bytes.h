@@ -13,7 +13,7 @@
 struct bytes {
     uint8_t *at; /* free() releases it */
     size_t size, room;
-    bool failed; /* out of memory at some time; what was appended then is missing */
+    bool failed; /* memory ran out once; what was appended then is missing */
 };
 
 void bytes_add(struct bytes *bytes, const void *from, size_t size);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Angles. An angle is brought to the first eighth of the circle by integers, without rounding; there Taylor's series
- * of sine and cosine, cut where terms fall below 2^-57, are evaluated in a fixed order.
+ * of sine and cosine, cut where terms are below 2^-57, are evaluated in a fixed order.
  */
 #include "cspace/grid/angle.h"
 

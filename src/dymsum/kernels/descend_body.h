@@ -13,7 +13,7 @@
 /* With so many facets, what is compared is not in a cache near the processor. */
 #define DESCENT_FETCHES 4096
 
-/* Fetches the rings of some cells. */
+/* Fetches the rings of these cells. */
 DESCEND_TARGET PIR_FETCHING void fetch_cells(const pir_facets *facets, const uint32_t *at, uint64_t which) {
     for (; which; which &= which - 1) {
         uint32_t v = at[__builtin_ctzll(which)];

@@ -279,15 +279,15 @@ TARGET static void find_starts(const pir_facets *facets, const pir_starts *start
         for (int i = 0; i < 3; i++)
             turn[k][i] = _mm256_set1_ps(facets->turn[k][i]);
     for (uint32_t first = 0; first < count; first += PIR_LANES) {
-        uint32_t some = count - first < PIR_LANES ? count - first : PIR_LANES, square[PIR_LANES], number[PIR_LANES];
+        uint32_t used = count - first < PIR_LANES ? count - first : PIR_LANES, square[PIR_LANES], number[PIR_LANES];
         for (uint32_t i = 0; i < PIR_LANES; i++)
-            number[i] = facet[first + (i < some ? i : 0)];
+            number[i] = facet[first + (i < used ? i : 0)];
         __m256 n[3], turned[3];
         gather_normals(facets->normal, number, n);
         for (int i = 0; i < 3; i++)
             turned[i] = dot(turn[0][i], turn[1][i], turn[2][i], n[0], n[1], n[2]);
         _mm256_storeu_si256((__m256i *)(void *)square, squares_of(starts->side, turned[0], turned[1], turned[2]));
-        for (uint32_t i = 0; i < some; i++)
+        for (uint32_t i = 0; i < used; i++)
             ret_from[first + i] = starts->cell[square[i]];
     }
 }

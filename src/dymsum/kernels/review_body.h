@@ -111,7 +111,7 @@ REVIEW_TARGET static inline __attribute__((always_inline)) uint32_t
 review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *certificates, pir_due due,
              pir_suspect *ret_suspects, uint64_t *sides, const bool fetches) {
     const uint32_t *expired = due.expired;
-    const uint32_t count = due.count, left = count + due.behind;
+    const uint32_t count = due.count, end = count + due.behind;
     pir_check check[REVIEW_CHUNK];
     float turned[REVIEW_CHUNK][8];
     uint8_t moved[REVIEW_CHUNK], crossing[REVIEW_CHUNK];
@@ -121,9 +121,9 @@ review_chunk(const pir_facets *facets, const pir_step *step, pir_certificates *c
         uint32_t f = expired[k] - facets->first_certificate, cell = facets->cell[f];
         checked_sides += facets->ring_start[cell + 1] - facets->ring_start[cell];
         if (fetches) {
-            if (k + 2 * REVIEW_CHUNK < left)
+            if (k + 2 * REVIEW_CHUNK < end)
                 fetch_facet(facets, certificates, expired[k + 2 * REVIEW_CHUNK]);
-            if (k + REVIEW_CHUNK < left)
+            if (k + REVIEW_CHUNK < end)
                 fetch_cell(facets, expired[k + REVIEW_CHUNK]);
         }
         turn_facet(facets, f, turned[k]);
@@ -162,14 +162,14 @@ REVIEW_TARGET static uint32_t review(const pir_facets *facets, const pir_step *s
                                      const pir_due *due, pir_suspect *ret_suspects, uint64_t *sides) {
     uint32_t suspects = 0;
     const bool fetches = facets->count >= REVIEW_FETCHES;
-    const uint32_t left = due->count + due->behind;
-    for (uint32_t k = 0; fetches && !due->begun && k < left && k < 2 * REVIEW_CHUNK; k++)
+    const uint32_t end = due->count + due->behind;
+    for (uint32_t k = 0; fetches && !due->begun && k < end && k < 2 * REVIEW_CHUNK; k++)
         fetch_facet(facets, certificates, due->expired[k]);
-    for (uint32_t k = 0; fetches && !due->begun && k < left && k < REVIEW_CHUNK; k++)
+    for (uint32_t k = 0; fetches && !due->begun && k < end && k < REVIEW_CHUNK; k++)
         fetch_cell(facets, due->expired[k]);
     for (uint32_t k = 0; k < due->count; k += REVIEW_CHUNK) {
         const uint32_t count = due->count - k < REVIEW_CHUNK ? due->count - k : REVIEW_CHUNK;
-        const pir_due chunk = {due->expired + k, count, left - k - count, true};
+        const pir_due chunk = {due->expired + k, count, end - k - count, true};
         pir_suspect *to = ret_suspects + suspects;
         suspects += fetches ? review_chunk(facets, step, certificates, chunk, to, sides, true)
                             : review_chunk(facets, step, certificates, chunk, to, sides, false);

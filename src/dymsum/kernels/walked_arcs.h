@@ -16,7 +16,7 @@ typedef struct pir_arcs {
     uint32_t edge[PIR_ARCS];                  /* of P */
     uint32_t from[PIR_ARCS], to[PIR_ARCS];    /* the cells of its ends */
     uint32_t side[PIR_ARCS];                  /* the side of the first cell that leads to the last, or PIR_NO_SIDE */
-    uint32_t right[PIR_ARCS], left[PIR_ARCS]; /* the facets of Q at that side's ends; or at those of some other */
+    uint32_t right[PIR_ARCS], left[PIR_ARCS]; /* the facets of Q at that side's ends; or of any other side */
     float value[PIR_ARCS][2];                 /* s of the edge and those two */
 } pir_arcs;
 

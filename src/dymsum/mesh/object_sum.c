@@ -10,7 +10,7 @@
 #include "dymsum/mesh/object_sum.h"
 #include "dymsum/mesh/sum_mesh.h"
 
-/* The most products of a normal with a vertex: some seconds. */
+/* The most products of a normal with a vertex: a few seconds. */
 #define MOST_PRODUCTS ((uint64_t)1 << 32)
 
 bool pir_mesh_is_whole(const pir_mesh *mesh) {

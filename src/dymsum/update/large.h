@@ -22,7 +22,7 @@ typedef struct pir_move {
 #define PIR_MOVES_APART 16
 #define PIR_MOVES_ROOM  (4 * PIR_MOVES_APART)
 
-/* Moves that are made some turns later, in order. */
+/* Moves to be made in a later turn, in order. */
 typedef struct pir_moves {
     pir_tracked *tracked;
     uint32_t stamp;         /* of the edges moved, in tracked->touched */

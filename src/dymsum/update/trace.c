@@ -51,7 +51,7 @@ struct exit {
 
 /*
  * The interval of angles ago at which s was zero, where it rises at `rising`: roots of s − s'a ± a²/2, widened by
- * the error, of all values within the slack. Both ends grow with s and fall with s'.
+ * the error, of all values within the slack. Both ends grow with s and shrink with s'.
  */
 static void angle_of_exit(double s, double rising, double error, double slack, double *ret_least, double *ret_most) {
     double fast = rising + slack, slow = rising - slack, below = s - slack, above = s + slack;

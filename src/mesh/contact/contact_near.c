@@ -38,7 +38,7 @@ static uint32_t most_corner(const pir_near_triangle *s, pir_vec3 n) {
     return a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2);
 }
 
-/* Weights of the point of the span of some points that is nearest to 0, of a sum `whole`; false where it is outside. */
+/* Weights of the point of the points' span that is nearest to 0, of a sum `whole`; false where it is outside. */
 static bool span_two(const pir_vec3 *a, const pir_vec3 *b, double w[2], double *ret_whole) {
     pir_vec3 e = pir_vec_sub(*b, *a);
     w[0] = pir_vec_dot(*b, e);

@@ -25,7 +25,7 @@ pir_status pir_model_fail_memory(const struct pir_model *model) {
     return pir_fail(model->report, PIR_ERR_MEMORY, "%s: out of memory", model->name);
 }
 
-/* Twice the room, or some to begin with. */
+/* Twice the room, or a first one. */
 static uint32_t more_room(uint32_t room) {
     return room < 32 ? 64 : room < UINT32_MAX / 2 ? 2 * room : UINT32_MAX;
 }

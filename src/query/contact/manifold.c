@@ -178,8 +178,8 @@ static inline bool is_lone_vertex(const struct manifold *m, const pir_single *p,
     struct ends ends = ends_of(m);
     if (!is_at_vertex(m, &ends, is_p))
         return false;
-    double room = pir_frame_from(m->frame, m->limit - m->answer->distance) * (1 + 0x1p-20);
-    const pir_lone_place place = {is_p ? ends.on_q : ends.on_p, m->coarse, room};
+    double height = pir_frame_from(m->frame, m->limit - m->answer->distance) * (1 + 0x1p-20);
+    const pir_lone_place place = {is_p ? ends.on_q : ends.on_p, m->coarse, height};
     return is_p ? pir_patch_is_lone(m->p, p, m->q, q, &place) : pir_patch_is_lone(m->q, q, m->p, p, &place);
 }
 

@@ -125,8 +125,8 @@ static pir_facet_shape shape_of(const pir_patch *patch, uint32_t f) {
  * from `out`.
  */
 static inline bool is_alone(const pir_facet_shape *shape, double off, double cosine, double snap) {
-    double room = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
-    return (room > 0) & (off < room * room) & (seen * shape->thick > PIR_CLIP_CLEAR * snap) &
+    double spare = shape->fall * (1 - COARSE) - PIR_FLAT - ROUNDING, seen = cosine * (1 - COARSE);
+    return (spare > 0) & (off < spare * spare) & (seen * shape->thick > PIR_CLIP_CLEAR * snap) &
            (seen * shape->wide > PIR_FLUSH);
 }
 
@@ -297,7 +297,7 @@ static pir_vec3 carry(const pir_patch *from, const pir_patch *to, pir_vec3 d) {
 struct rising {
     pir_vec3 at, edge[2]; /* the point under the vertex, and the two edges of the facet there */
     double rise[2];       /* what those rise by at least */
-    double room, clear;   /* how far up counts, and how clear of a side is clear enough */
+    double height, clear; /* how far up counts, and how clear of a side is clear enough */
     double least, wide;   /* what either edge rises by; all of it is nearer to the vertex than `wide` over that */
 };
 
@@ -311,7 +311,7 @@ static inline bool is_within_side(const struct rising *rising, const pir_patch *
     bool inside = from > 0;
     for (int k = 0; k < 2; k++) {
         double along = pir_vec_dot(in, rising->edge[k]);
-        inside &= from * rising->rise[k] + along * rising->room > 0;
+        inside &= from * rising->rise[k] + along * rising->height > 0;
     }
     return inside;
 }
@@ -332,17 +332,17 @@ bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_
     const pir_polytope *p = vertex->polytope;
     pir_vec3 n = carrier->polytope->normal[by->facet];
     struct rising rising;
-    rising.room = place->room;
+    rising.height = place->height;
     for (int k = 0; k < 2; k++) {
         uint32_t half = k == 0 ? of->half : pir_ring_next(p, of->half);
         rising.edge[k] = carry(vertex, carrier, p->direction[half]);
         double rise = rising.rise[k] = pir_vec_dot(n, rising.edge[k]) - PIR_LEVEL;
-        if (!(rise > PIR_FLUSH && rise * vertex->shape.apart * (1 - COARSE) > rising.room))
+        if (!(rise > PIR_FLUSH && rise * vertex->shape.apart * (1 - COARSE) > rising.height))
             return false;
     }
     rising.at = pir_patch_to_body(carrier, pir_vec_sub(place->at, carrier->at));
     rising.clear = place->coarse + PIR_CLIP_CLEAR * carrier->snap;
     rising.least = rising.rise[0] < rising.rise[1] ? rising.rise[0] : rising.rise[1];
-    rising.wide = (1 + COARSE) * rising.room;
+    rising.wide = (1 + COARSE) * rising.height;
     return is_within(&rising, carrier, by->facet, n);
 }

@@ -78,12 +78,12 @@ static inline double pir_patch_height(const pir_patch *patch, const pir_corner *
 typedef struct pir_lone_place {
     pir_vec3 at;   /* the point of the carrier under the vertex */
     double coarse; /* more than it may be off by */
-    double room;
+    double height; /* of what counts over the carrier, at most */
 } pir_lone_place;
 
 /*
- * Whether all of a vertex's facet that rises from the vertex by at most `room`, along the carrier's normal, is over the
- * carrier and no corner but the vertex is among it.
+ * Whether all of a vertex's facet that rises from the vertex by at most `height`, along the carrier's normal, is over
+ * the carrier and no corner but the vertex is among it.
  */
 bool pir_patch_is_lone(const pir_patch *vertex, const pir_single *of, const pir_patch *carrier, const pir_single *by,
                        const pir_lone_place *place);

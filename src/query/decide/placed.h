@@ -82,7 +82,7 @@ pir_real pir_exact_unit(const pir_exact *exact);
 /* W(a, b). */
 pir_int3 pir_exact_corner(pir_exact *exact, uint32_t a, uint32_t b);
 
-/* The vector of a halfedge of P, rotated, or of Q, times some positive number. */
+/* The vector of a halfedge of P, rotated, or of Q, times a positive number. */
 pir_int3 pir_exact_half_p(pir_exact *exact, uint32_t half);
 pir_int3 pir_exact_half_q(const pir_exact *exact, uint32_t half);
 

@@ -149,7 +149,7 @@ double pir_bounds_find(pir_bounds *bounds, const pir_groups *groups, const pir_p
         double least =
             groups->scan->caps(g, PIR_SCAN_LANES, &bounds->caps, placement->x, placement->error, bounds->low);
         high = least < high ? least : high;
-        // what a cap rules out now stays ruled out for some time
+        // what a cap rules out now stays ruled out while the bodies move little
         for (uint32_t i = g; open; i++, open >>= 1)
             if ((open & 1) && bounds->low[i] > limit)
                 pir_bounds_keep(bounds, groups, i, placement, bounds->low[i], -HUGE_VAL);

@@ -25,7 +25,7 @@
  */
 static inline uint32_t pir_climb_above(const pir_polytope *polytope, pir_vec3 n, double least, uint32_t from) {
     // every step rises, so no vertex comes twice; the count bounds the loop even if rounding should err
-    for (uint32_t left = polytope->vertex_count; left > 0; left--) {
+    for (uint32_t steps = polytope->vertex_count; steps > 0; steps--) {
         uint32_t best = UINT32_MAX, end = polytope->ring_start[from + 1];
         double steepest = least;
         for (uint32_t h = polytope->ring_start[from]; h < end; h++) {

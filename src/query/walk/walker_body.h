@@ -44,7 +44,7 @@ static uint32_t steepest_half(const pir_polytope *p, uint32_t vertex, pir_vec3 n
 /* The vertex uphill from *vertex of which all edges fall. */
 WALK_TARGET static inline pir_same find_top(const pir_body *body, pir_vec3 n, uint32_t *vertex) {
     const pir_polytope *p = body->polytope;
-    for (uint32_t left = p->vertex_count; left > 0; left--) {
+    for (uint32_t steps = p->vertex_count; steps > 0; steps--) {
         pir_same fall = all_fall(steepest_at(body, *vertex, n));
         if (fall != PIR_SAME_NOT)
             return fall;
@@ -276,7 +276,7 @@ WALK_TARGET static pir_piece near_edges(const pir_frame *frame, pir_piece piece)
 WALK_TARGET static inline pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_same is,
                                           pir_same_facet *same) {
     pir_piece before = {PIR_NO_PIECE, 0, 0};
-    for (uint32_t left = MOST_FACETS; left > 0 && is <= PIR_SAME_BESIDE; left--) {
+    for (uint32_t steps = MOST_FACETS; steps > 0 && is <= PIR_SAME_BESIDE; steps--) {
         const pir_piece last = same->facet.piece,
                         next = is == PIR_SAME_BESIDE ? across(frame, placement, same) : near_edges(frame, last);
         // to and fro across an edge of D, which the nearest point is on

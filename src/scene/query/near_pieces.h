@@ -21,7 +21,7 @@ typedef struct pir_near_search {
     pir_nearness by;
     pir_box from;
     pir_vec3 way;
-    const double *most; /* triangles that are not as near as this are left out; it may fall */
+    const double *most; /* triangles that are not as near as this are left out; it may become less */
     /* Looks at a piece, whose polytope pir_probe_pair makes where it is a triangle. */
     pir_status (*look)(void *context, pir_scene_piece *piece);
     void *context;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The pieces that a shape overlaps. Hits are kept in order, so that those beyond the capacity fall off. */
+/* The pieces that a shape overlaps. Hits are kept in order, so that those beyond the capacity are dropped. */
 #include "scene/query/near_pieces.h"
 #include "scene/world/grow.h"
 

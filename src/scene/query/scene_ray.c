@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Hits of a segment on pieces and triangles whose boxes it meets: each by one of the ways of ray.h. How far it
- * is followed falls to the time of the first hit, to nothing after any, or stays where all are listed.
+ * Hits of a segment on pieces and triangles whose boxes it meets: each by one of the ways of ray.h. It is
+ * followed to its end where all are listed, to the time of the first hit so far, or no farther than to any hit.
  */
 #include "base/options.h"
 #include "scene/query/ray_rounded.h"

@@ -86,7 +86,7 @@ static void part_finish(struct approximation *job, struct joined_part *part) {
     *part = (struct joined_part){0};
 }
 
-/* Leaves of some vertices those that their exact hull has. Their numbers are borrowed while it is made. */
+/* Keeps of these vertices those of their exact hull. Their numbers are borrowed while it is made. */
 static pir_status keep_extreme(struct approximation *job, uint32_t *vertex, uint32_t *count) {
     const uint32_t given = *count;
     pir_polytope *hull = NULL;

@@ -12,9 +12,9 @@ static pir_space_box box_of(const pir_polytope *piece, double *reach) {
         const double x[3] = {at.x, at.y, at.z};
         *reach = fmax(*reach, sqrt(pir_vec_dot(at, at)) * (1 + 0x1p-48));
         for (int k = 0; k < 3; k++) {
-            const double room = fabs(x[k]) * 0x1p-50;
-            box.low[k] = fmin(box.low[k], x[k] - room);
-            box.high[k] = fmax(box.high[k], x[k] + room);
+            const double error = fabs(x[k]) * 0x1p-50;
+            box.low[k] = fmin(box.low[k], x[k] - error);
+            box.high[k] = fmax(box.high[k], x[k] + error);
         }
     }
     return box;

@@ -64,7 +64,7 @@ pir_relative pir_relative_of(const pir_compound *p, const pir_compound *q, const
         for (int k = 0; k < 3; k++)
             made.reach[i][k] = fabs(made.turn[i][k]);
     }
-    made.room =
+    made.error =
         0x1p-44 * (p->reach + q->reach + fabs(t.x) + fabs(t.y) + fabs(t.z) + fabs(u.x) + fabs(u.y) + fabs(u.z)) +
         0x1p-44 * made.radii;
     return made;
@@ -110,11 +110,11 @@ static pir_likely look(const pir_relative *relative, bool of_p, const pir_compou
         const double at = of_p ? a->face[f].offset + dot(n, relative->shift)
                                : a->face[f].offset - dot(a->face[f].normal, relative->shift);
         const double middle = dot(n, b->middle[other]) - at;
-        inside = inside && middle < -relative->room;
+        inside = inside && middle < -relative->error;
         double low = -HUGE_VAL;
-        if (middle > relative->room + relative->radii)
+        if (middle > relative->error + relative->radii)
             lowest_vertex(b, other, n, &low);
-        if (low - at > relative->room + relative->radii)
+        if (low - at > relative->error + relative->radii)
             return PIR_CERTAINLY_APART;
     }
     return inside ? PIR_CERTAINLY_INSIDE : PIR_LIKELY_UNKNOWN;
@@ -133,7 +133,7 @@ static bool some_way_parts(const pir_relative *relative, const pir_compound *p, 
             m[k] = -v[k];
         const double *a = p->vertex[lowest_vertex(p, i, n, &low_p)], *b = q->vertex[lowest_vertex(q, j, m, &low_q)];
         const double length = dot(v, v), height = low_p + low_q + dot(v, relative->shift);
-        if (height > (relative->room + relative->radii) * sqrt(length))
+        if (height > (relative->error + relative->radii) * sqrt(length))
             return true;
         double way = 0;
         for (int k = 0; k < 3; k++) {

@@ -11,7 +11,7 @@ typedef struct pir_relative {
     double turn[3][3], reach[3][3]; /* of P's frame into Q's, and its absolute values */
     double shift[3];
     double radii;
-    double room; /* what distances and heights over planes are off by at most, each */
+    double error; /* what distances and heights over planes are off by at most, each */
 } pir_relative;
 
 /* `input` is finite, and its rotations are not zero. */

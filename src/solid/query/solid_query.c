@@ -210,8 +210,9 @@ static bool meets(const pir_impact *impact) {
 
 /* How far off pairs may be that are met in time. */
 static double reach_until(const struct solid_call *call) {
-    const double room = 0x1p-30 * call->flight.size;
-    return (meets(&call->impact) ? call->impact.time : 1) * call->speed * (1 + 0x1p-40) + call->flight.tolerance + room;
+    const double error = 0x1p-30 * call->flight.size;
+    return (meets(&call->impact) ? call->impact.time : 1) * call->speed * (1 + 0x1p-40) + call->flight.tolerance +
+           error;
 }
 
 static double ask_flight(void *context, uint32_t i, uint32_t j) {

@@ -76,24 +76,24 @@ static const pir_turned_box *turned_q(const struct visit *v, uint32_t number) {
 /* A lower bound of the distance between what is in two boxes, as seen in the frame of Q, then in that of P: of less
  * use, but sooner known, once one axis shows that it is above `within`. */
 static double distance(const struct visit *v, uint32_t p, uint32_t q, double within) {
-    const double room = v->at->room + v->at->radii;
+    const double off = v->at->error + v->at->radii;
     double sum[2] = {0, 0};
     const pir_turned_box *of_p = turned_p(v, p), *of_q = turned_q(v, q);
     const pir_space_box *box_p = box_of(&v->p->boxes, p), *box_q = box_of(&v->q->boxes, q);
     for (int i = 0; i < 3; i++) {
         const double gap = gap_of(box_q, i, of_p->middle[i], of_p->half[i]);
-        if (gap - room > within)
-            return gap - room;
+        if (gap - off > within)
+            return gap - off;
         sum[0] += gap * gap;
     }
     for (int i = 0; i < 3; i++) {
         const double gap = gap_of(box_p, i, of_q->middle[i], of_q->half[i]);
-        if (gap - room > within)
-            return gap - room;
+        if (gap - off > within)
+            return gap - off;
         sum[1] += gap * gap;
     }
     const double most = sum[0] > sum[1] ? sum[0] : sum[1];
-    return (most > 0 ? sqrt(most) * (1 - 0x1p-48) : 0) - room;
+    return (most > 0 ? sqrt(most) * (1 - 0x1p-48) : 0) - off;
 }
 
 static double length_of(const pir_space_box *box) {
