@@ -189,8 +189,8 @@ static uint32_t least_of(const struct overlap *overlap) {
 /* The facet of D that a triangle lies in which nothing is beyond. */
 static enum about facet_at(const struct overlap *overlap, uint32_t t, pir_facet *ret_facet) {
     pir_piece piece;
-    bool some = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
-    return some ? ABOUT_FACET : ABOUT_NOTHING;
+    bool is_facet = piece_at(overlap, t, &piece) && pir_facet_prove(overlap->exact, piece, ret_facet);
+    return is_facet ? ABOUT_FACET : ABOUT_NOTHING;
 }
 
 /* Expands a placed surface that x has left. */
@@ -375,7 +375,7 @@ static uint32_t next_open(const struct overlap *overlap, const struct found *fou
 
 /* An upper bound on the least slack. */
 static double bound_of(const struct overlap *overlap, const pir_least *least) {
-    if (!least->some)
+    if (!least->found)
         return HUGE_VAL;
     const pir_facet *facet = &least->facet;
     return facet->h - pir_vec_dot(facet->n, overlap->placement->x) + overlap->placement->error * facet->err;
@@ -523,7 +523,7 @@ static inline bool is_passed(const struct overlap *overlap, uint32_t t, uint32_t
 static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
     struct found found;
     found.count = found.walks = 0;
-    found.aside = found.least.some = false;
+    found.aside = found.least.found = false;
     if (overlap->task->has_same) {
         found.facet[0] = overlap->task->same.facet;
         add_facet(overlap, corners_in(overlap, &found.facet[0], overlap->surface->used), &found);
@@ -533,7 +533,7 @@ static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
         uint32_t t = next_open(overlap, &found, bound), corner;
         if (t == overlap->surface->count) {
             *ret_facet = found.least.facet;
-            return found.least.some;
+            return found.least.found;
         }
         if (is_passed(overlap, t, added, &found))
             continue;

@@ -357,7 +357,7 @@ bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room) 
     pir_vec3 n = pir_surface_normal(room, t);
     struct beside most = {.of = t};
     double along = room->plane.det[t] + room->det_error;
-    bool some = false;
+    bool found = false;
     need_sides(surface, room);
     for (int k = 0; k < 3; k++) {
         struct beside at = {.of = t, .i = surface->corner[k][t], .j = surface->corner[k < 2 ? k + 1 : 0][t]};
@@ -366,9 +366,9 @@ bool pir_surface_turn(pir_surface *surface, uint32_t t, pir_surface_room *room) 
         at.far = third_of(surface, at.other, at.i, at.j);
         double far = pir_vec_dot(n, pir_surface_corner(room, at.far));
         if (far > along)
-            along = far, most = at, some = true;
+            along = far, most = at, found = true;
     }
-    uint64_t gone = some ? set_turned(surface, &most, room) : 0;
+    uint64_t gone = found ? set_turned(surface, &most, room) : 0;
     if (gone == 0)
         return false;
     put_fan(surface, gone, room);

@@ -99,8 +99,8 @@ static bool find_depth(struct query_task *asked) {
     asked->state = PIR_OUTSIDE;
     if (pir_piece_recall(&asked->query->search.groups, asked->cache, &last) && pir_plane_separates(&last, placement))
         return false;
-    least->some = pir_depth_find(&asked->query->search, placement, asked->cache, &least->facet, &task->result->steps);
-    if (least->some) {
+    least->found = pir_depth_find(&asked->query->search, placement, asked->cache, &least->facet, &task->result->steps);
+    if (least->found) {
         double slack = least->facet.h - pir_vec_dot(least->facet.n, placement->x);
         double error = placement->error * least->facet.err;
         if (slack < -error)
@@ -155,7 +155,7 @@ static void begin(pir_query *query, const pir_placement *placement, int want, pi
     pir_task *task = &ret_asked->task;
     ret_asked->query = query;
     ret_asked->cache = cache;
-    ret_asked->least.some = false;
+    ret_asked->least.found = false;
     task->source = &source;
     task->frame = &query->frame;
     task->placement = placement;
@@ -218,7 +218,7 @@ static void answer_in_region(pir_query *query, const pir_placement *placement, p
     pir_least least;
     pir_result_set_state(
         result, pir_regional_find(&query->regional, &query->search.groups, placement, cache, &least, &result->steps));
-    if (!least.some) {
+    if (!least.found) {
         result->outcome = PIR_NO_HIT;
         return;
     }

@@ -31,9 +31,9 @@ static bool first_touch(pir_query *query, const pir_line *line, pir_arrival *ret
     if (pir_flat_is(&query->exact))
         return pir_flat_enter(&query->exact, line, ret_arrival);
     pir_clip clip = clip_line(query, line, steps);
-    if (clip.misses || !clip.enter.some || pir_facet_side(&query->exact, line->placement, &clip.enter.facet) >= 0)
+    if (clip.misses || !clip.enter.found || pir_facet_side(&query->exact, line->placement, &clip.enter.facet) >= 0)
         return false;
-    if (clip.leave.some && pir_line_compare(&query->exact, line, &clip.enter.facet, &clip.leave.facet) > 0)
+    if (clip.leave.found && pir_line_compare(&query->exact, line, &clip.enter.facet, &clip.leave.facet) > 0)
         return false;
     return pir_line_arrive(&query->exact, line, &clip.enter.facet, ret_arrival);
 }
@@ -70,7 +70,7 @@ void pir_query_depth_along(pir_query *query, const pir_line *line, pir_query_res
     pir_clip clip = clip_line(query, line, &result->steps);
     pir_arrival arrival;
     // D is bounded and x inside, so the line leaves D through a facet, and on it
-    bool leaves = clip.leave.some && pir_line_arrive(&query->exact, line, &clip.leave.facet, &arrival);
+    bool leaves = clip.leave.found && pir_line_arrive(&query->exact, line, &clip.leave.facet, &arrival);
     result->outcome = leaves ? PIR_OVERLAPPING : PIR_STEP_LIMIT;
     if (leaves)
         set_arrival(query, &arrival, -1, result);
@@ -141,7 +141,7 @@ static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_face
     const pir_planes *planes = query->search.groups.planes;
     const pir_placement *placement = line->placement;
     double most = HUGE_VAL;
-    bool some = false;
+    bool found = false;
     for (uint32_t g = 0; g < query->search.groups.count; g++) {
         pir_group_make(&query->search.groups, g);
         const pir_group *group = &query->search.groups.at[g];
@@ -155,14 +155,14 @@ static bool moves_in(pir_query *query, const pir_line *line, pir_facet *ret_face
             if (!pir_facet_of(&query->exact, planes->piece[i], &facet))
                 continue;
             double rate = pir_vec_dot(facet.n, line->u);
-            if (!some || rate < most || (rate == most && pir_facet_before(&facet, ret_facet))) {
+            if (!found || rate < most || (rate == most && pir_facet_before(&facet, ret_facet))) {
                 *ret_facet = facet;
                 most = rate;
             }
-            some = true;
+            found = true;
         }
     }
-    return some;
+    return found;
 }
 
 static void cast_from_outside(pir_query *query, const pir_line *line, pir_impact *result) {

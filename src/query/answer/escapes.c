@@ -14,14 +14,14 @@
 /* The first facet in order after `after` with a slack of at most `limit`. */
 static pir_least next_within(pir_query *query, const pir_placement *placement, double limit, const pir_facet *after) {
     const pir_planes *planes = query->search.groups.planes;
-    pir_least next = {.some = false};
+    pir_least next = {.found = false};
     for (uint32_t g = 0; g < query->search.groups.count; g++) {
         const pir_group *group = &query->search.groups.at[g];
         for (uint32_t i = group->start; i < group->start + group->count; i++) {
             pir_facet facet;
             if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] > limit ||
                 !pir_facet_of(&query->exact, planes->piece[i], &facet) || (after && !pir_facet_before(after, &facet)) ||
-                (next.some && !pir_facet_before(&facet, &next.facet)) ||
+                (next.found && !pir_facet_before(&facet, &next.facet)) ||
                 pir_facet_slack(&query->exact, placement, &facet) > limit)
                 continue;
             next = (pir_least){true, facet};
@@ -40,7 +40,7 @@ size_t pir_query_ways_out(pir_query *query, const pir_placement *placement, cons
     for (uint32_t g = 0; g < query->search.groups.count; g++)
         pir_group_make(&query->search.groups, g);
     pir_facet last;
-    for (pir_least next = next_within(query, placement, limit, NULL); next.some;
+    for (pir_least next = next_within(query, placement, limit, NULL); next.found;
          next = next_within(query, placement, limit, &last), count++) {
         last = next.facet;
         if (count < ask->capacity)

@@ -49,7 +49,7 @@ void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {
 void pir_task_touching(pir_task *task, const pir_least *touching) {
     pir_result_set_state(task->result, PIR_BOUNDARY);
     pir_result_touching(task->exact, task->placement, touching, task->result);
-    if (touching->some)
+    if (touching->found)
         pir_task_keep_facet(task, &touching->facet);
 }
 

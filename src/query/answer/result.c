@@ -22,7 +22,7 @@ void pir_result_touching(pir_exact *exact, const pir_placement *placement, const
     const pir_frame *frame = exact->frame;
     pir_touch touch = {{{0}, {0}}, {0, 0, 0}};
     result->distance = 0;
-    if (touching->some) {
+    if (touching->found) {
         result->normal = touching->facet.n;
         pir_touch_facet(exact, placement, &touching->facet, 0, NULL, &touch);
     } else {

@@ -187,14 +187,14 @@ PIR_LANES_INLINE pir_lane cosines(const pir_polytope *p, uint32_t half, pir_lane
 
 PIR_LANES_TARGET static pir_foremost foremost(const pir_polytope *p, uint32_t v, pir_vec3 out, double sine) {
     // ones, then zeros, from 8 - count on
-    static const uint64_t some[16] = {UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX,
-                                      UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX};
+    static const uint64_t steps[16] = {UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX,
+                                       UINT64_MAX, UINT64_MAX, UINT64_MAX, UINT64_MAX};
     const uint32_t start = p->ring_start[v], count = p->ring_start[v + 1] - start;
     if (count > MOST)
         return pir_single_plain.foremost(p, v, out, sine);
     const pir_lane3 all = pir_lane3_all(out);
     const pir_lane least = pir_all(PIR_LEAST_COSINE);
-    const double *mask = (const double *)some + 8 - count;
+    const double *mask = (const double *)steps + 8 - count;
     const pir_vec3 *direction = p->direction + start;
     const uint32_t flat = flat_among(direction, all, sine) | flat_among(direction + 4, all, sine) << 4;
     const pir_lane low = _mm256_blendv_pd(least, cosines(p, start, all), pir_load(mask)),

@@ -392,7 +392,7 @@ int pir_facet_compare(pir_exact *exact, const pir_placement *placement, const pi
 
 void pir_least_offer_facet(pir_exact *exact, const pir_placement *placement, pir_least *least, const pir_facet *facet) {
     int order = -1;
-    if (least->some) {
+    if (least->found) {
         if (pir_facet_same(facet, &least->facet))
             return;
         order = pir_facet_compare(exact, placement, facet, &least->facet);
@@ -401,7 +401,7 @@ void pir_least_offer_facet(pir_exact *exact, const pir_placement *placement, pir
     }
     if (order < 0)
         least->facet = *facet;
-    least->some = true;
+    least->found = true;
 }
 
 void pir_least_offer(pir_exact *exact, const pir_placement *placement, pir_least *least, pir_piece piece) {

@@ -49,7 +49,7 @@ typedef struct pir_facet {
 
 /* The facet that a search has found, if any. */
 typedef struct pir_least {
-    bool some;
+    bool found;
     pir_facet facet;
 } pir_least;
 

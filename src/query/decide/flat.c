@@ -164,7 +164,7 @@ pir_vec3 pir_flat_across(const pir_frame *frame) {
  * D that it passes through.
  */
 struct bound {
-    bool some, opposite;
+    bool found, opposite;
     uint32_t index, a, b;
 };
 
@@ -201,7 +201,7 @@ static int compare(pir_exact *exact, const pir_int3 *direction, struct bound a, 
 /* The last support plane that the line enters by. False where the line misses D, or meets it only before x. */
 static bool find_entry(pir_exact *exact, const pir_int3 *direction, struct bound *ret_enter) {
     const pir_frame *frame = exact->frame;
-    struct bound enter = {.some = false}, leave = {.some = false};
+    struct bound enter = {.found = false}, leave = {.found = false};
     uint32_t mark = exact->scratch.used, count = normal_count(frame);
     int enter_side = 0;
     for (uint32_t i = 0; i < 2 * count; i++) {
@@ -213,15 +213,15 @@ static bool find_entry(pir_exact *exact, const pir_int3 *direction, struct bound
         exact->scratch.used = mark;
         if (is_bound && rate == 0 && side < 0)
             return false;
-        if (rate > 0 && (!leave.some || compare(exact, direction, bound, leave) < 0))
+        if (rate > 0 && (!leave.found || compare(exact, direction, bound, leave) < 0))
             leave = bound;
-        if (rate < 0 && (!enter.some || compare(exact, direction, bound, enter) > 0)) {
+        if (rate < 0 && (!enter.found || compare(exact, direction, bound, enter) > 0)) {
             enter = bound;
             enter_side = side;
         }
     }
     *ret_enter = enter;
-    return enter.some && enter_side < 0 && (!leave.some || compare(exact, direction, enter, leave) <= 0);
+    return enter.found && enter_side < 0 && (!leave.found || compare(exact, direction, enter, leave) <= 0);
 }
 
 bool pir_flat_enter(pir_exact *exact, const pir_line *line, pir_arrival *ret_arrival) {

@@ -77,7 +77,7 @@ static void take(pir_exact *exact, const pir_line *line, pir_least *best, pir_pi
     if (!pir_facet_of(exact, piece, &facet))
         return;
     int order = -1;
-    if (best->some) {
+    if (best->found) {
         if (pir_facet_same(&facet, &best->facet))
             return;
         order = sense * pir_line_compare(exact, line, &facet, &best->facet);
@@ -86,7 +86,7 @@ static void take(pir_exact *exact, const pir_line *line, pir_least *best, pir_pi
     }
     if (order < 0)
         best->facet = facet;
-    best->some = true;
+    best->found = true;
 }
 
 void pir_clip_take(pir_exact *exact, const pir_planes *planes, const pir_line *line, pir_clip *clip, uint32_t slot) {

@@ -46,8 +46,8 @@ static inline pir_status pir_line_make(const pir_placement *placement, pir_vec3 
     *ret_line = (pir_line){.placement = placement, .direction = direction};
     if (!pir_vec_is_finite(direction))
         return PIR_ERR_NOT_FINITE;
-    bool some = pir_unit_of(direction, &ret_line->u, &ret_line->part, &ret_line->exponent);
-    return some ? PIR_OK : PIR_ERR_ARGUMENT;
+    bool is_direction = pir_unit_of(direction, &ret_line->u, &ret_line->part, &ret_line->exponent);
+    return is_direction ? PIR_OK : PIR_ERR_ARGUMENT;
 }
 
 /*

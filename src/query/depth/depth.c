@@ -258,12 +258,12 @@ bool pir_depth_find(pir_search *search, const pir_placement *placement, const pi
     // a refined plane has another slack and a smaller error
     limit = least_refined(search, placement, limit);
     const pir_planes *planes = groups->planes;
-    pir_least least = {.some = false};
+    pir_least least = {.found = false};
     for (uint32_t k = 0, end; k <= search->looked_count; k++)
         for (uint32_t i = part_of(search, k, &end); i < end; i++)
             if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] <= limit)
                 pir_least_offer(groups->exact, placement, &least, planes->piece[i]);
-    if (least.some)
+    if (least.found)
         *ret_facet = least.facet;
-    return least.some;
+    return least.found;
 }

@@ -256,11 +256,11 @@ bool pir_leaves_depth(pir_leaves *leaves, pir_groups *groups, const pir_placemen
     const pir_planes *planes = groups->planes;
     for (uint32_t i = 0; i < count; i++)
         limit = fmin(limit, pir_planes_slack(planes, slot[i], placement->x) + placement->error * planes->err[slot[i]]);
-    pir_least least = {.some = false};
+    pir_least least = {.found = false};
     for (uint32_t i = 0; i < count; i++)
         if (pir_planes_slack(planes, slot[i], placement->x) - placement->error * planes->err[slot[i]] <= limit)
             pir_least_offer(groups->exact, placement, &least, planes->piece[slot[i]]);
-    if (least.some)
+    if (least.found)
         *ret_facet = least.facet;
-    return least.some;
+    return least.found;
 }

@@ -243,11 +243,11 @@ pir_state pir_regional_find(pir_regional *regional, pir_groups *groups, const pi
     struct search search = search_all(regional, groups, placement, false, cache);
     ++*steps;
     // every piece whose slack may be the least is there
-    *ret_least = (pir_least){.some = false};
+    *ret_least = (pir_least){.found = false};
     for (uint32_t i = 0; i < search.count; i++)
         if (pir_planes_slack(planes, i, placement->x) - placement->error * planes->err[i] <= search.limit)
             pir_least_offer(groups->exact, placement, ret_least, planes->piece[i]);
-    if (!ret_least->some)
+    if (!ret_least->found)
         return PIR_INSIDE;
     int side = pir_facet_side(groups->exact, placement, &ret_least->facet);
     return side < 0 ? PIR_OUTSIDE : side == 0 ? PIR_BOUNDARY : PIR_INSIDE;
@@ -262,7 +262,7 @@ bool pir_regional_exit(pir_regional *regional, pir_groups *groups, const pir_lin
     for (uint32_t i = 0; i < search.count; i++)
         pir_clip_take(groups->exact, groups->planes, line, &clip, i);
     ++*steps;
-    if (!clip.leave.some)
+    if (!clip.leave.found)
         return false;
     const pir_facet *facet = &clip.leave.facet;
     if (!pir_line_arrive(groups->exact, line, facet, ret_arrival)) {

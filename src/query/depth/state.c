@@ -29,9 +29,9 @@ static void offer_touching(pir_exact *exact, pir_piece piece, pir_least *touchin
     pir_facet facet;
     if (!pir_facet_of(exact, piece, &facet))
         return;
-    if (!touching->some || pir_facet_before(&facet, &touching->facet))
+    if (!touching->found || pir_facet_before(&facet, &touching->facet))
         touching->facet = facet;
-    touching->some = true;
+    touching->found = true;
 }
 
 /* Decides what doubles leave open, by the exact signs of slacks near zero. */
@@ -41,7 +41,7 @@ static pir_state settle(pir_search *search, const pir_placement *placement, pir_
     const pir_frame *frame = groups->frame;
     const pir_planes *planes = groups->planes;
     bool touches = false, any = false;
-    ret_touching->some = false;
+    ret_touching->found = false;
     for (uint32_t g = 0; g < groups->count; g++) {
         const pir_group *group = &groups->at[g];
         any |= search->slack[g] == HUGE_VAL || group->count > 0;
