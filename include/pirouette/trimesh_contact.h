@@ -22,18 +22,24 @@
  * x is at a wall between pieces, or at its rim, and the contact is a ghost. Decided by exact signs, for pieces of
  * dimension 3. What another piece meets elsewhere hides no contact of P. Pieces with a radius count without it here.
  *
- * One-sided triangles push to their front. A triangle that has P, with its radius, wholly behind it, or in its plane,
- * does not count. Behind others lies a solid, however thin: no contact pushes into it.
+ * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count. With
+ * a radius it counts all the same where the ball comes to it from behind, which is where P without the radius is nearer
+ * to it than that. Behind others lies a solid, however thin: no contact pushes into it.
  *
  * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
  * contact is that of its nearest points. Where P meets another triangle on that way, y may also be a place beside,
  * within the margin, on the same facet of D. Where P overlaps, it is moved first: by `way_out`, to a place where it
- * meets no triangle, and contacts are those seen from there. Their depths are those at the pose that was given.
+ * meets no triangle, and contacts are those seen from there. Their distances are those at the pose that was given.
  *
  * A radius grows P by a ball. Contacts are then those of P grown by half of it, or by half of what P would touch with
- * where that is less: so both sides of a valley are felt before a ball of the whole radius comes to both, and depths
+ * where that is less: so both sides of a valley are felt before a ball of the whole radius comes to both, and distances
  * are those of the whole. Where P without its radius overlaps, or is at the back of the one-sided triangle that is
  * nearest, it is moved out first, to the front, and the depth is the radius more.
+ *
+ * P may be stuck: between walls that are nearer to each other than it is wide no way out is found. `is_out` tells, and
+ * way_out is 0. Contacts then push both ways, so that a solver brings P to where both depths are equal. Where P without
+ * its radius is apart from the walls, they are those of the theorem. Where it is not, each triangle that P meets pushes
+ * across its own plane: a one-sided one to its front, another one to the side that is nearer. Ghosts are not told there.
  *
  * Exact for the doubles given: the state of a polytope without a radius, and which contacts are ghosts. With a radius
  * both follow from distances that are within 2^-40 of the size of the coordinates. Distances, points and normals are
@@ -84,33 +90,52 @@ typedef struct pir_surface_contact_input {
 /** At the origin, not turned; no radius, no margin, no surfaces, nothing beside. O(1). */
 PIR_API pir_surface_contact_input pir_surface_contact_input_default(void);
 
-/** A contact: a point of P over a point of a triangle along the normal. */
+/**
+ * A contact: a point of P over a point of a triangle along the normal. Where P overlaps, point_q is on the triangle, or
+ * in its plane where P is stuck, and point_p is off P by the part of way_out across the normal.
+ */
 typedef struct pir_surface_contact {
     pir_vec3 point_p, point_q; /**< point_p = point_q + distance · normal */
     pir_vec3 normal;           /**< unit, from the surface to P */
     double distance;           /**< along the normal; negative where P overlaps */
     uint32_t surface;          /**< the number of the surface in the input */
     uint32_t triangle, material;
-    uint64_t id; /**< of the features that meet here, the same from call to call while they meet */
+    uint64_t id; /**< of the features of P and of the surface that meet here, and of the normal: unlike all others of a
+                      call, and the same from call to call while these meet */
 } pir_surface_contact;
 
 /** The work of a call. */
 typedef struct pir_surface_contact_counts {
     uint32_t triangles; /**< whose boxes are near P */
     uint32_t near;      /**< within the margin, or met */
-    uint32_t ghosts;    /**< whose contact was none of the union */
-    uint32_t exact;     /**< decisions that doubles left open */
+    uint32_t ghosts; /**< whose contact was found to be none of the union: of each normal the nearest are looked at */
+    uint32_t exact;  /**< decisions that doubles left open */
 } pir_surface_contact_counts;
 
-/** How P stands to the union of the surfaces. */
+/**
+ * How P stands to the union of the surfaces. The distance, the normal and the points belong together, and say where P
+ * is by one contact:
+ *
+ * - Outside: of the nearest triangle that counts, ghost or not. With a radius the distance is that of P without it less
+ *   the radius.
+ * - Boundary: of a triangle that P touches.
+ * - Inside, with a way out: P moved by −distance · normal has point_p at point_q and touches the triangle there, but
+ *   for a step less than way_out, and overlaps nothing. Where the way out is that through one facet, the normal is the
+ *   facet's. Where the way ends behind a one-sided triangle, there may be none that is touched: then point_q is where
+ *   point_p comes to.
+ * - Inside, with none: of the deepest contact.
+ *
+ * point_p is on P with its radius where there is a way out.
+ */
 typedef struct pir_surface_contact_result {
     pir_state state; /**< PIR_OUTSIDE, PIR_BOUNDARY where P meets triangles but can leave all by any small motion one
                             way of each, PIR_INSIDE where it overlaps some */
-    double distance; /**< from the nearest triangle; 0 where P touches; minus the length of way_out where it overlaps */
+    double distance; /**< above 0 outside, HUGE_VAL beyond the margin; 0 on the boundary; at most 0 inside */
     pir_vec3 normal; /**< unit, from the surface to P; 0 where there is none within the margin */
-    pir_vec3 point_p, point_q;
-    uint32_t surface, triangle; /**< of the nearest triangle; PIR_TRIANGLE_NONE where none is within the margin */
-    pir_vec3 way_out; /**< a translation after which P, with its radius, meets no triangle; 0 where it meets none */
+    pir_vec3 point_p, point_q;  /**< point_p = point_q + distance · normal */
+    uint32_t surface, triangle; /**< where point_q is; PIR_TRIANGLE_NONE where none is within the margin */
+    pir_vec3 way_out; /**< a translation after which P, with its radius, meets no triangle; 0 where it meets none, and
+                           where none was found */
     bool is_out; /**< whether P meets no triangle there, without a radius exactly; false where none was found nearby */
     bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D, and meets nothing a step
                             farther on: 2^-12 of P's size, or 2^-28 where another triangle is that near. way_out has
@@ -123,9 +148,10 @@ typedef struct pir_surface_contact_result {
  * Contacts of P with the union of surfaces, the deepest first, whatever their normals. Those of one normal hold the
  * greatest area by at most four points.
  *
- * Each normal is that of a true contact of the theorem above. The contacts of a normal are the corners of what lies
- * under the part of P that faces the surface there, of all triangles whose distance along the normal is within the
- * margin: more points, but no other normals.
+ * Each normal is that of a true contact of the theorem above; at most 64 normals are told, those of the nearest. The
+ * contacts of a normal are the corners of what lies under the part of P that faces the surface there, of all triangles
+ * whose distance along the normal is within the margin: more points, but no other normals. The nearest contact of each
+ * normal is one of them, or one as deep is, within 2^-40 of the size of what is near.
  *
  * p                       any dimension.
  * workspace               scratch.

@@ -96,10 +96,91 @@ void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_tri
             offer_across(&tour, k, e);
 }
 
-void pir_contact_front_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
-                             pir_contact_facet_visitor *visit, void *context) {
+void pir_contact_plane_facets(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                              pir_contact_facet_visitor *visit, void *context) {
     const struct tour tour = {0, job, s, t, visit, context};
+    if (!(pir_vec_dot(s->front, s->front) > 0))
+        return;
     offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, 0});
+    if (!s->one_sided)
+        offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 1, 0, pir_vec_scale(s->front, -1), 0, 0});
+}
+
+/* --- whether they touch --- */
+
+/* How far off a point may be of which doubles say that it is beside a facet, by the size of what it is made of. */
+#define BESIDE 0x1p-30
+
+/* The vertex that is least along n; UINT32_MAX where another one is nearly as low. */
+static uint32_t single_lowest(const pir_contact_job *job, pir_vec3 n, double near) {
+    double least = HUGE_VAL, next = HUGE_VAL;
+    uint32_t best = UINT32_MAX;
+    for (uint32_t v = 0; v < job->p->vertex_count; v++) {
+        const double along = pir_vec_dot(n, job->vertex[v]);
+        next = fmin(next, fmax(along, least));
+        best = along < least ? v : best;
+        least = fmin(least, along);
+    }
+    return next - least > near ? best : UINT32_MAX;
+}
+
+/* The corner that is most along n; 3 where another one is nearly as high. */
+static uint32_t single_highest(const pir_near_triangle *s, pir_vec3 n, double near) {
+    const double h[3] = {pir_vec_dot(n, s->p[0]), pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])};
+    for (uint32_t k = 0; k < 3; k++)
+        if (h[k] - fmax(h[(k + 1) % 3], h[(k + 2) % 3]) > near)
+            return k;
+    return 3;
+}
+
+/* How far x is outside of the side from a to b of a face that is counter-clockwise about n. */
+static double beyond(pir_vec3 a, pir_vec3 b, pir_vec3 n, pir_vec3 x) {
+    const pir_vec3 e = pir_vec_sub(b, a);
+    return pir_vec_dot(pir_vec_cross(e, n), pir_vec_sub(x, a)) / pir_length(e);
+}
+
+/* On the triangle's plane: the lowest vertex over the triangle. */
+static bool may_touch_plane(const pir_contact_job *job, pir_vec3 moved, const pir_near_triangle *s,
+                            const pir_contact_facet *facet, double near) {
+    const uint32_t v = single_lowest(job, facet->n, near);
+    for (uint32_t k = 0; k < 3 && v != UINT32_MAX; k++)
+        if (beyond(s->p[k], s->p[(k + 1) % 3], s->front, pir_vec_add(job->vertex[v], moved)) > near)
+            return false;
+    return true;
+}
+
+/* On P's facet: the highest corner under it. */
+static bool may_touch_facet(const pir_contact_job *job, pir_vec3 moved, const pir_near_triangle *s,
+                            const pir_contact_facet *facet, double near) {
+    const pir_polytope *p = job->p;
+    const uint32_t w = single_highest(s, facet->n, near), end = p->loop_start[facet->first + 1];
+    for (uint32_t i = p->loop_start[facet->first]; i < end && w < 3; i++) {
+        const pir_vec3 a = job->vertex[p->origin[p->loop[i]]], b = job->vertex[p->target[p->loop[i]]];
+        if (beyond(a, b, job->turned[facet->first], pir_vec_sub(s->p[w], moved)) > near)
+            return false;
+    }
+    return true;
+}
+
+/* Of two segments a b and c d across n: whether one of them is on one side of the other. */
+static bool are_beside(pir_vec3 a, pir_vec3 b, pir_vec3 c, pir_vec3 d, pir_vec3 n, double near) {
+    const double x = beyond(a, b, n, c), y = beyond(a, b, n, d), z = beyond(c, d, n, a), w = beyond(c, d, n, b);
+    return (x > near && y > near) || (x < -near && y < -near) || (z > near && w > near) || (z < -near && w < -near);
+}
+
+bool pir_contact_may_touch(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                           const pir_contact_facet *facet) {
+    const pir_polytope *p = job->p;
+    const pir_vec3 moved = pir_vec_add(t, pir_vec_scale(facet->n, facet->depth));
+    const double near = BESIDE * job->size + 4 * facet->off;
+    if (facet->kind == PIR_CONTACT_FRONT)
+        return may_touch_plane(job, moved, s, facet, near);
+    if (facet->kind == PIR_CONTACT_FACET)
+        return p->dimension < 3 || may_touch_facet(job, moved, s, facet, near);
+    const uint32_t half = p->edge_half[facet->second];
+    const pir_vec3 a = pir_vec_add(job->vertex[p->origin[half]], moved);
+    const pir_vec3 b = pir_vec_add(job->vertex[p->target[half]], moved);
+    return !are_beside(a, b, s->p[facet->first], s->p[(facet->first + 1) % 3], facet->n, near);
 }
 
 /* --- whether they overlap --- */

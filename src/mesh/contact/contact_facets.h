@@ -27,9 +27,16 @@ typedef void pir_contact_facet_visitor(void *context, const pir_contact_facet *f
 void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                             pir_contact_facet_visitor *visit, void *context);
 
-/* Tells of the facet of the front alone. */
-void pir_contact_front_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
-                             pir_contact_facet_visitor *visit, void *context);
+/* Tells of the facets across the triangle's plane alone: of the front, and of the back of a two-sided one. */
+void pir_contact_plane_facets(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                              pir_contact_facet_visitor *visit, void *context);
+
+/*
+ * Whether P, moved along a facet's normal by its depth, may touch the triangle there: false where it certainly is beside
+ * the facet, so that a shorter way leaves this triangle.
+ */
+bool pir_contact_may_touch(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                           const pir_contact_facet *facet);
 
 /* Whether interior points meet: P, which meets the triangle, overlaps it, exactly. */
 bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s);

@@ -14,6 +14,9 @@
 #include "mesh/contact/contact_exact.h"
 #include "mesh/signs/mesh_numbers.h"
 
+/* How far beyond what is asked for triangles are gathered at first, by P's radius: enough to leave what is not deep. */
+#define SHALLOW 0x1p-6
+
 /* --- P --- */
 
 static pir_status check_pose(const pir_pose *pose, pir_rotation *rotation) {
@@ -246,6 +249,17 @@ pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
     return PIR_OK;
 }
 
+bool pir_contact_reserve_order(pir_contact_job *job) {
+    if (2 * job->triangle_count <= job->order_room)
+        return true;
+    uint32_t *order = PIR_RESIZE(&job->allocator, job->order, job->order_room, 2 * job->triangle_room);
+    if (!order)
+        return false;
+    job->order = order;
+    job->order_room = 2 * job->triangle_room;
+    return true;
+}
+
 pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
                                  double grow) {
     pir_status status = check_input(input);
@@ -263,7 +277,7 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
     if (status == PIR_OK)
         status = pir_contact_take_beside(job);
     if (status == PIR_OK)
-        status = pir_contact_job_gather(job, grow);
+        status = pir_contact_job_gather(job, grow + SHALLOW * job->radius);
     return status == PIR_OK ? pir_contact_exact_reserve(job) : status;
 }
 
@@ -273,6 +287,7 @@ void pir_contact_job_finish(pir_contact_job *job) {
     PIR_FREE(&job->allocator, job->beside, job->beside_room);
     PIR_FREE(&job->allocator, job->beside_vertex, job->beside_vertex_room);
     PIR_FREE(&job->allocator, job->triangle, job->triangle_room);
+    PIR_FREE(&job->allocator, job->order, job->order_room);
     PIR_FREE(&job->allocator, job->limbs.base, job->limbs.capacity);
 }
 

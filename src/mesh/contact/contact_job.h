@@ -44,9 +44,10 @@ typedef struct pir_near_triangle {
     uint32_t surface, number;
     uint32_t id[3]; /* of its corners, equal where those of one surface are at one place */
     bool one_sided;
-    bool counts, stands;   /* at the place of `near`: it is not behind; its contact is no ghost */
+    bool counts;           /* at the place of `near`: P is not behind it, or its ball comes to it from there */
     bool passed;           /* there: P without its radius has come to its back, but with it has not left it */
     pir_contact_near near; /* at the place that was looked at last */
+    double gap;            /* of its contact where the input has P: set for those in `order` */
 } pir_near_triangle;
 
 /* Another convex piece of P's body: beside.h. Lengths are from P's origin, turned. */
@@ -74,6 +75,8 @@ typedef struct pir_contact_job {
     pir_vec3 low, high;
     pir_near_triangle *triangle;
     uint32_t triangle_count, triangle_room;
+    uint32_t *order; /* numbers of triangles, and room to sort as many */
+    uint32_t order_room;
     bool out_of_memory;
     double grown;          /* by how much P's box was grown to gather triangles */
     double size;           /* the sum of all lengths that a coordinate is made of */
@@ -89,11 +92,13 @@ typedef struct pir_contact_job {
     pir_surface_contact_counts counts;
 } pir_contact_job;
 
-/* Takes the input, and gathers the triangles whose boxes meet that of P grown by `grow`. */
+/* Takes the input, and gathers the triangles whose boxes meet that of P grown by `grow`, and a little more. */
 pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
                                  double grow);
 /* Gathers anew. */
 pir_status pir_contact_job_gather(pir_contact_job *job, double grow);
+/* Room in `order` for all triangles; false when out of memory. */
+bool pir_contact_reserve_order(pir_contact_job *job);
 void pir_contact_job_finish(pir_contact_job *job);
 
 /* Whether corner `a` of one triangle and `b` of another are certainly at one place. */

@@ -358,6 +358,21 @@ void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, c
     }
 }
 
+pir_vec3 pir_contact_touch_point(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s) {
+    const pir_contact_simplex *ids = &s->near.simplex;
+    struct hull hull = {.ids = *ids}, best = hull;
+    double least = HUGE_VAL;
+    pir_vec3 x = {0, 0, 0};
+    for (uint32_t k = 0; k < ids->count; k++)
+        hull.d[k] = difference(job, t, s, ids->v[k], ids->w[k]);
+    for (uint32_t mask = 1; mask < 1u << ids->count; mask++)
+        if (__builtin_popcount(mask) <= 3)
+            consider(&hull, mask, &least, &best);
+    for (uint32_t k = 0; k < best.ids.count; k++)
+        x = pir_vec_add(x, pir_vec_scale(s->p[best.ids.w[k]], best.weight[k]));
+    return x;
+}
+
 pir_contact_told pir_contact_told_meets(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
                                         double error, pir_contact_simplex *ret_simplex) {
     struct hull hull;
@@ -384,7 +399,7 @@ bool pir_contact_meets(pir_contact_job *job, const pir_contact_place *place, con
 /* --- from behind --- */
 
 pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
-                                         double error) {
+                                         double error, double grow) {
     if (!s->one_sided)
         return PIR_TOLD_NO;
     pir_vec3 e = pir_vec_sub(s->p[1], s->p[0]), f = pir_vec_sub(s->p[2], s->p[0]), n = pir_vec_cross(e, f);
@@ -393,10 +408,10 @@ pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
         most = fmax(most, pir_vec_dot(n, difference(job, at, s, v, 0)));
     double bound = off * (8 * sides * far + 2 * length) + 0x1p-48 * pir_length(e) * pir_length(f) * far;
-    most += job->input->radius * length;
+    most += grow * length;
     if (fabs(most) > bound)
         return most < 0 ? PIR_TOLD_YES : PIR_TOLD_NO;
-    return job->input->radius > 0 ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
+    return grow > 0 ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
 }
 
 bool pir_exact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {
@@ -411,6 +426,6 @@ bool pir_exact_is_behind(pir_contact_job *job, const pir_contact_place *place, c
 }
 
 bool pir_contact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {
-    pir_contact_told told = pir_contact_told_behind(job, place->at, s, 0);
+    pir_contact_told told = pir_contact_told_behind(job, place->at, s, 0, 0);
     return told == PIR_TOLD_NOTHING ? pir_exact_is_behind(job, place, s) : told == PIR_TOLD_YES;
 }

@@ -8,6 +8,9 @@
 void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                          pir_contact_near *ret_near);
 
+/* A point that P at t shares with a triangle that it only touches: `near` is of there. */
+pir_vec3 pir_contact_touch_point(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s);
+
 /* Doubles' verdict on P at a place that is off by at most `error`. */
 typedef enum pir_contact_told {
     PIR_TOLD_NO = 0,
@@ -19,11 +22,12 @@ typedef enum pir_contact_told {
 pir_contact_told pir_contact_told_meets(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
                                         double error, pir_contact_simplex *ret_simplex);
 
-/* Whether a triangle is one-sided and has P wholly behind it or in its plane. */
+/* Whether a triangle is one-sided and has P, grown by a ball of radius `grow`, wholly behind it or in its plane. What
+ * doubles leave open about a ball is PIR_TOLD_NO. */
 pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s,
-                                         double error);
+                                         double error, double grow);
 
-/* Likewise, exactly. */
+/* Likewise, exactly; of P without a ball. */
 bool pir_contact_meets(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
 bool pir_contact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
 /* By integers alone. */

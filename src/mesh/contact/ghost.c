@@ -10,14 +10,14 @@ struct contact {
     const pir_near_triangle *s;
     const pir_contact_near *near;
     pir_vec3 t;
-    pir_vec3 moved; /* where P touches, in doubles, within `off` */
+    pir_vec3 moved; /* where P touches, with the ball, in doubles, within `off` */
     double off;
     bool along_front;  /* n is the normal of s itself */
     double front_sign; /* then: 1 where it is the front */
     bool has_exact;
     pir_int3 n;
     pir_exact_move move;
-    pir_contact_place place; /* with that move */
+    pir_contact_place place; /* with that move: of P without a ball */
 };
 
 static void make_exact(struct contact *c) {
@@ -94,24 +94,33 @@ static bool has_point(const struct contact *c, const pir_near_triangle *r) {
     return true;
 }
 
+static pir_vec3 on_grid(const pir_contact_job *job, pir_vec3 v) {
+    return (pir_vec3){pir_contact_on_grid(job, v.x), pir_contact_on_grid(job, v.y), pir_contact_on_grid(job, v.z)};
+}
+
+/* Where P touches with a ball: integers know places on the grid alone, which is far finer than the errors. */
+static pir_contact_place ball_place(const struct contact *c) {
+    return pir_place_at(on_grid(c->job, c->moved));
+}
+
+/* Whether P without the ball is behind r, where it touches with it. */
 static bool is_behind(struct contact *c, const pir_near_triangle *r) {
-    pir_contact_told told = pir_contact_told_behind(c->job, c->moved, r, c->off);
+    if (c->job->ball > 0) {
+        const pir_contact_place place = ball_place(c);
+        return pir_contact_is_behind(c->job, &place, r);
+    }
+    pir_contact_told told = pir_contact_told_behind(c->job, c->moved, r, c->off, 0);
     if (told != PIR_TOLD_NOTHING)
         return told == PIR_TOLD_YES;
     make_exact(c);
     return pir_exact_is_behind(c->job, &c->place, r);
 }
 
-static pir_vec3 on_grid(const pir_contact_job *job, pir_vec3 v) {
-    return (pir_vec3){pir_contact_on_grid(job, v.x), pir_contact_on_grid(job, v.y), pir_contact_on_grid(job, v.z)};
-}
-
 /* Whether P, moved until it touches, meets r. With a ball: whether it is nearer than that. */
 static bool is_met(struct contact *c, const pir_near_triangle *r) {
     double ball = c->job->ball;
     if (ball > 0) {
-        // integers, where they are needed, know places on the grid alone; it is far finer than the errors
-        const pir_contact_place place = pir_place_at(on_grid(c->job, c->moved));
+        const pir_contact_place place = ball_place(c);
         pir_contact_near near;
         pir_contact_nearest(c->job, &place, r, &near);
         return near.meets || near.distance < ball - 8 * (c->off + c->job->error);

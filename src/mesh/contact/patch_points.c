@@ -9,6 +9,8 @@
 /* Sine and cosine of the angle up to which features count as across the normal. */
 #define TILT_SINE   0.05
 #define TILT_COSINE 0.99875
+/* How far an end of a segment is off another one at most that it lies on, by that one's length. */
+#define ALONG 0x1p-30
 
 pir_patch_frame pir_patch_frame_of(pir_vec3 n) {
     pir_vec3 axis = fabs(n.x) < 0.6 ? (pir_vec3){1, 0, 0} : (pir_vec3){0, 1, 0}, u = pir_vec_cross(n, axis);
@@ -149,10 +151,10 @@ struct patch_meeting {
     uint32_t count;
 };
 
-static void give(struct patch_meeting *m, const double x[2], uint32_t id) {
+static void give(struct patch_meeting *m, const double x[2], pir_contact_feature feature) {
     if (m->count == PIR_PATCH_POINTS)
         return;
-    m->points[m->count++] = (pir_patch_point){{x[0], x[1]}, height_at(m->p, x), height_at(m->q, x), id};
+    m->points[m->count++] = (pir_patch_point){{x[0], x[1]}, height_at(m->p, x), height_at(m->q, x), feature};
 }
 
 /* The crossing of side i of p and side k of q, where they cross. */
@@ -164,7 +166,30 @@ static void cross(struct patch_meeting *m, uint32_t i, uint32_t k) {
         return;
     double part = at_a / (at_a - at_b);
     const double x[2] = {a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])};
-    give(m, x, 2u << 30 | m->p->id[i] << 4 | m->q->id[k]);
+    const uint32_t from = m->p->id[i], to = m->p->id[(i + 1) % m->p->count];
+    const uint32_t corners = 1u << m->q->id[k] | 1u << m->q->id[(k + 1) % m->q->count];
+    give(m, x, (pir_contact_feature){{from < to ? from : to, from < to ? to : from}, corners});
+}
+
+/* Whether x is on a segment, in doubles. */
+static bool is_on(const pir_contact_patch *segment, const double x[2]) {
+    const double *a = segment->at[0], *b = segment->at[1];
+    const double e[2] = {b[0] - a[0], b[1] - a[1]}, square = e[0] * e[0] + e[1] * e[1];
+    const double part = (x[0] - a[0]) * e[0] + (x[1] - a[1]) * e[1];
+    return fabs(turn(a, b, x)) <= ALONG * square && part >= 0 && part <= square;
+}
+
+/* Ends of two segments that lie on each other. */
+static void give_ends(struct patch_meeting *m) {
+    for (uint32_t i = 0; i < 2; i++)
+        if (is_on(m->q, m->p->at[i]))
+            give(m, m->p->at[i],
+                 (pir_contact_feature){{m->p->id[i], m->p->id[i]}, 1u << m->q->id[0] | 1u << m->q->id[1]});
+    const uint32_t from = m->p->id[0], to = m->p->id[1];
+    for (uint32_t k = 0; k < 2; k++)
+        if (is_on(m->p, m->q->at[k]))
+            give(m, m->q->at[k],
+                 (pir_contact_feature){{from < to ? from : to, from < to ? to : from}, 1u << m->q->id[k]});
 }
 
 /* How many sides a patch has. */
@@ -177,12 +202,14 @@ uint32_t pir_patch_meet(const pir_contact_patch *p, const pir_contact_patch *q,
     struct patch_meeting m = {p, q, ret_points, 0};
     for (uint32_t i = 0; i < p->count; i++)
         if (is_over(q, p->at[i]))
-            give(&m, p->at[i], p->id[i] << 4 | 3);
+            give(&m, p->at[i], (pir_contact_feature){{p->id[i], p->id[i]}, 7});
     for (uint32_t k = 0; k < q->count; k++)
         if (is_over(p, q->at[k]))
-            give(&m, q->at[k], 1u << 30 | q->id[k]);
+            give(&m, q->at[k], (pir_contact_feature){{UINT32_MAX, UINT32_MAX}, 1u << q->id[k]});
     for (uint32_t i = 0; i < sides(p); i++)
         for (uint32_t k = 0; k < sides(q); k++)
             cross(&m, i, k);
+    if (p->count == 2 && q->count == 2)
+        give_ends(&m);
     return m.count;
 }

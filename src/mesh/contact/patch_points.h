@@ -18,9 +18,15 @@ typedef struct pir_contact_patch {
     uint32_t id[PIR_PATCH_MOST];
 } pir_contact_patch;
 
+/* Features that meet: a vertex of P twice, both ends of an edge in order, or UINT32_MAX twice for a facet; corners of a
+ * triangle as bits. */
+typedef struct pir_contact_feature {
+    uint32_t p[2], corners;
+} pir_contact_feature;
+
 typedef struct pir_patch_point {
     double at[2], height_p, height_q;
-    uint32_t id; /* of the features that meet there */
+    pir_contact_feature feature;
 } pir_patch_point;
 
 /* Directions across a unit normal. */

@@ -115,6 +115,8 @@ pir_status pir_contact_find_rounded_way_out(pir_contact_job *job, pir_way_out *o
         if (status != PIR_OK)
             return status;
     }
+    if (found.is_out)
+        pir_contact_pull_back(job, radius, &found);
     double bound = moved ? out->depth + radius : deepest, length = pir_length(found.way);
     if (!found.is_out) {
         out->is_out = out->is_shortest = false;

@@ -6,36 +6,37 @@
  */
 #include "base/scratch.h"
 #include "mesh/contact/contact_facets.h"
-#include "mesh/contact/ghost.h"
-#include "mesh/contact/patch_points.h"
+#include "mesh/contact/contact_id.h"
 #include "mesh/contact/rounded_out.h"
-#include "mesh/contact/way_out.h"
 
-/* Normals of one call, at most, and how near to one another they count as one: this chooses points only. */
-#define MOST_NORMALS 64
-#define SAME_SQUARE  0x1p-60
 /* Points of a normal. */
 #define MOST_POINTS 4
+/* Heights and depths this near to one another, by the size of what is near P, are one: this chooses points only. */
+#define LEVEL 0x1p-30
+/* How much deeper than all points of a normal its nearest contact has to be to be one more, by that size. */
+#define DEEPER 0x1p-40
 
 pir_surface_contact_input pir_surface_contact_input_default(void) {
     return (pir_surface_contact_input){.pose = pir_pose_identity()};
 }
 
-/* A contact that stands: the triangle, and the gap where P is. */
-struct standing {
+/* A point of a normal. */
+struct normal_point {
+    pir_vec3 q; /* on the triangle, or in its plane */
+    double distance;
     uint32_t triangle;
-    double gap;
-    pir_vec3 normal;
+    pir_contact_feature feature;
 };
 
 struct room {
     pir_contact_job job;
     pir_way_out out;
-    struct standing standing[MOST_NORMALS]; /* by rising gap, one for each normal */
-    uint32_t standing_count;
-    pir_surface_contact *point; /* of the normal that is looked at */
+    bool stuck; /* no way out of what P meets was found */
+    pir_standings standings;
+    struct normal_point *point; /* of the normal that is looked at */
     uint32_t point_count, point_room;
-    pir_surface_contact chosen[MOST_NORMALS * MOST_POINTS]; /* of all normals, the deepest first */
+    pir_vec3 normal;
+    pir_surface_contact chosen[PIR_CONTACT_NORMALS * MOST_POINTS]; /* of all normals, the deepest first */
     uint32_t chosen_count;
 };
 
@@ -46,156 +47,112 @@ static void destroy_room(void *room, const pir_allocator *allocator) {
     PIR_FREE(allocator, r, 1);
 }
 
-/* --- which contacts stand --- */
-
-static double gap_of(const struct room *room, const pir_near_triangle *s, pir_vec3 normal) {
-    return s->near.distance - pir_vec_dot(normal, room->out.way) - room->job.input->radius;
-}
-
-static bool is_same(pir_vec3 a, pir_vec3 b) {
-    pir_vec3 way = pir_vec_sub(a, b);
-    return pir_vec_dot(way, way) < SAME_SQUARE;
-}
-
-/* Puts a contact in its place, unless one of its normal is there that is as near. */
-static void insert(struct room *room, struct standing contact) {
-    uint32_t count = 0;
-    bool known = false;
-    for (uint32_t i = 0; i < room->standing_count; i++) {
-        const struct standing *other = &room->standing[i];
-        bool same = is_same(other->normal, contact.normal);
-        if (same && contact.gap < other->gap)
-            continue;
-        known |= same;
-        room->standing[count++] = *other;
-    }
-    room->standing_count = count;
-    if (known || (count == MOST_NORMALS && contact.gap >= room->standing[count - 1].gap))
-        return;
-    uint32_t at = count < MOST_NORMALS ? room->standing_count++ : count - 1;
-    for (; at > 0 && room->standing[at - 1].gap > contact.gap; at--)
-        room->standing[at] = room->standing[at - 1];
-    room->standing[at] = contact;
-}
-
-/* Half of the radius, or of that at which P would touch. */
-static double ball_of(const pir_contact_job *job) {
-    double least = job->input->radius;
-    for (uint32_t i = 0; i < job->triangle_count && least > 0; i++) {
-        const pir_near_triangle *s = &job->triangle[i];
-        if (s->counts && !s->near.meets)
-            least = fmin(least, s->near.distance);
-    }
-    return 0.5 * least;
-}
-
-static void find_standing(struct room *room) {
-    pir_contact_job *job = &room->job;
-    room->standing_count = 0;
-    job->ball = ball_of(job);
-    for (uint32_t i = 0; i < job->triangle_count; i++) {
-        pir_near_triangle *s = &job->triangle[i];
-        s->stands = false;
-        if (!s->counts || s->near.meets)
-            continue;
-        pir_vec3 normal = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n));
-        double gap = gap_of(room, s, normal);
-        if (!(gap <= job->input->margin))
-            continue;
-        job->counts.near++;
-        s->stands = pir_contact_stands(job, room->out.t, i);
-        if (s->stands)
-            insert(room, (struct standing){i, gap, normal});
-        else
-            job->counts.ghosts++;
-    }
-}
-
 /* --- points --- */
 
-static uint64_t id_of(const pir_near_triangle *s, uint32_t feature) {
-    uint64_t x = ((uint64_t)s->number << 32 | feature) + (uint64_t)s->surface * 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
-
-static bool add_point(struct room *room, const pir_surface_contact *point) {
+static bool add_point(struct room *room, struct normal_point point) {
     if (room->point_count == room->point_room) {
         uint32_t more = room->point_room ? 2 * room->point_room : 64;
-        pir_surface_contact *grown = PIR_RESIZE(&room->job.allocator, room->point, room->point_room, more);
+        struct normal_point *grown = PIR_RESIZE(&room->job.allocator, room->point, room->point_room, more);
         if (!grown)
             return false;
         room->point = grown;
         room->point_room = more;
     }
-    room->point[room->point_count++] = *point;
+    room->point[room->point_count++] = point;
     return true;
 }
 
-static pir_surface_contact contact_on(const struct room *room, const pir_near_triangle *s, pir_vec3 normal,
-                                      pir_vec3 point, double distance, uint32_t feature) {
-    return (pir_surface_contact){
-        .point_p = pir_vec_add(point, pir_vec_scale(normal, distance)),
-        .point_q = point,
-        .normal = normal,
-        .distance = distance,
-        .surface = s->surface,
-        .triangle = s->number,
-        .material = pir_surface_material(room->job.input->surfaces[s->surface].surface, s->number),
-        .id = id_of(s, feature),
-    };
-}
+/* What all triangles are looked at with for one normal. */
+struct normal_view {
+    pir_patch_frame frame;
+    pir_contact_patch body; /* P's part that faces against it */
+    double low;             /* the height of P's lowest vertex */
+    double moved;           /* how much less a distance is than heights are apart */
+    double least;           /* how far apart heights are at least */
+};
 
 /* Adds the points of P's patch over one triangle; false when out of memory. */
-static bool add_points(struct room *room, const pir_near_triangle *s, const pir_patch_frame *frame,
-                       const pir_contact_patch *body) {
+static bool add_points(struct room *room, uint32_t index, const struct normal_view *view) {
     const pir_contact_job *job = &room->job;
+    const pir_near_triangle *s = &job->triangle[index];
+    const pir_patch_frame *frame = &view->frame;
     pir_contact_patch patch;
     pir_patch_point points[PIR_PATCH_POINTS];
     pir_patch_of_triangle(frame, s, &patch);
-    uint32_t count = pir_patch_meet(body, &patch, points);
-    double moved = pir_vec_dot(frame->n, room->out.way) + job->input->radius, least = -0x1p-30 * job->size;
+    uint32_t count = pir_patch_meet(&view->body, &patch, points);
     for (uint32_t i = 0; i < count; i++) {
-        double apart = points[i].height_p - points[i].height_q, distance = apart - moved;
-        if (!(distance <= job->input->margin) || apart < least)
+        double apart = points[i].height_p - points[i].height_q, distance = apart - view->moved;
+        if (!(distance <= job->input->margin) || apart < view->least)
             continue;
         pir_vec3 across =
             pir_vec_add(pir_vec_scale(frame->u, points[i].at[0]), pir_vec_scale(frame->v, points[i].at[1]));
         pir_vec3 point = pir_vec_add(across, pir_vec_scale(frame->n, points[i].height_q));
-        pir_surface_contact contact = contact_on(room, s, frame->n, point, distance, points[i].id);
-        if (!add_point(room, &contact))
+        if (!add_point(room, (struct normal_point){point, distance, index, points[i].feature}))
             return false;
     }
     return true;
 }
 
-/* All points of a normal, the nearest ones first of all. */
-static bool collect_points(struct room *room, const struct standing *standing) {
+/* Whether a triangle may have points of a normal: it is not too far below P along it. */
+static bool may_have_points(const struct room *room, const pir_near_triangle *s, const struct normal_view *view) {
+    const pir_vec3 n = view->frame.n;
+    if (!s->counts || (s->one_sided && pir_vec_dot(n, s->front) < -LEVEL) ||
+        (room->stuck && !s->near.meets && !s->passed))
+        return false;
+    const double high = fmax(pir_vec_dot(n, s->p[0]), fmax(pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])));
+    return view->low - high - view->moved <= room->job.input->margin + LEVEL * room->job.size;
+}
+
+static void set_view(const struct room *room, pir_vec3 normal, struct normal_view *ret_view) {
     const pir_contact_job *job = &room->job;
-    const pir_patch_frame frame = pir_patch_frame_of(standing->normal);
-    const pir_near_triangle *own = &job->triangle[standing->triangle];
-    pir_contact_patch body;
-    pir_patch_of_body(job, &frame, room->out.t, &body);
+    ret_view->frame = pir_patch_frame_of(normal);
+    ret_view->moved = pir_vec_dot(normal, room->out.way) + job->input->radius;
+    ret_view->least = room->stuck ? -HUGE_VAL : -LEVEL * job->size;
+    ret_view->low = HUGE_VAL;
+    for (uint32_t v = 0; v < job->p->vertex_count; v++)
+        ret_view->low = fmin(ret_view->low, pir_vec_dot(normal, job->vertex[v]));
+    ret_view->low += pir_vec_dot(normal, room->out.t);
+    pir_patch_of_body(job, &ret_view->frame, room->out.t, &ret_view->body);
+}
+
+/* Takes out the points that are at a place; whether there are any. */
+static bool drop_points_at(struct room *room, pir_vec3 at) {
+    const double near = LEVEL * room->job.size;
+    const uint32_t before = room->point_count;
     room->point_count = 0;
-    for (uint32_t i = 0; i < job->triangle_count; i++) {
-        const pir_near_triangle *s = &job->triangle[i];
-        if (!s->counts || (s->one_sided && pir_vec_dot(frame.n, s->front) < -0x1p-30))
-            continue;
-        if (!add_points(room, s, &frame, &body))
+    for (uint32_t i = 0; i < before; i++)
+        if (!(pir_length(pir_vec_sub(room->point[i].q, at)) <= near))
+            room->point[room->point_count++] = room->point[i];
+    return room->point_count < before;
+}
+
+/*
+ * All points of a normal. Its nearest contact is one of them where no other one is as deep, and where it is at an end of
+ * an edge of P, which else is now a crossing and now none, by rounding.
+ */
+static bool collect_points(struct room *room, const pir_standing *standing, const struct normal_view *view) {
+    double least = HUGE_VAL;
+    room->normal = standing->normal;
+    room->point_count = 0;
+    for (uint32_t i = 0; i < room->job.triangle_count; i++)
+        if (may_have_points(room, &room->job.triangle[i], view) && !add_points(room, i, view))
             return false;
-    }
-    uint32_t feature = 3u << 30 | own->near.simplex.v[0] << 4 | own->near.simplex.w[0];
-    pir_surface_contact nearest = contact_on(room, own, standing->normal, own->near.point, standing->gap, feature);
-    return room->point_count > 0 || add_point(room, &nearest);
+    for (uint32_t i = 0; i < room->point_count; i++)
+        least = fmin(least, room->point[i].distance);
+    const pir_contact_feature feature = pir_contact_feature_of(&standing->simplex);
+    const bool is_end = view->body.count == 2 && feature.p[0] == feature.p[1];
+    const bool is_there = is_end && drop_points_at(room, standing->point);
+    if (!is_there && least <= standing->gap + DEEPER * room->job.size)
+        return true;
+    return add_point(room, (struct normal_point){standing->point, standing->gap, standing->triangle, feature});
 }
 
 static pir_vec3 between(const struct room *room, uint32_t a, uint32_t b) {
-    return pir_vec_sub(room->point[b].point_q, room->point[a].point_q);
+    return pir_vec_sub(room->point[b].q, room->point[a].q);
 }
 
 static void bring(struct room *room, uint32_t from, uint32_t to) {
-    pir_surface_contact point = room->point[from];
+    struct normal_point point = room->point[from];
     room->point[from] = room->point[to];
     room->point[to] = point;
 }
@@ -220,7 +177,7 @@ static double square_from_first(const struct room *room, uint32_t i) {
 }
 
 static double area_about(const struct room *room, uint32_t i) {
-    return pir_vec_dot(room->point[0].normal, pir_vec_cross(between(room, 0, 1), between(room, 0, i)));
+    return pir_vec_dot(room->normal, pir_vec_cross(between(room, 0, 1), between(room, 0, i)));
 }
 
 static double area_either(const struct room *room, uint32_t i) {
@@ -230,7 +187,7 @@ static double area_either(const struct room *room, uint32_t i) {
 /* How much area a point adds to a triangle of three: beyond the side that it is farthest outside of. */
 static double area_added(const struct room *room, uint32_t i) {
     double side = area_about(room, 2) > 0 ? 1 : -1, most = 0;
-    pir_vec3 n = room->point[0].normal;
+    pir_vec3 n = room->normal;
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t next = (k + 1) % 3;
         double out = -side * pir_vec_dot(n, pir_vec_cross(between(room, k, next), between(room, k, i)));
@@ -254,22 +211,47 @@ static void reduce_points(struct room *room) {
     room->point_count = count;
 }
 
-/* Puts a point behind those that are as deep. */
-static void choose_point(struct room *room, const pir_surface_contact *point) {
+/* Whether a contact that was chosen has a number. */
+static bool has_id(const struct room *room, uint64_t id) {
+    for (uint32_t i = 0; i < room->chosen_count; i++)
+        if (room->chosen[i].id == id)
+            return true;
+    return false;
+}
+
+/* Puts a contact behind those that are as deep. */
+static void choose_point(struct room *room, const struct normal_point *point, pir_normal_name of) {
+    const pir_near_triangle *s = &room->job.triangle[point->triangle];
+    uint64_t id = pir_contact_id(&room->job, s, &point->feature, room->normal, of);
+    while (has_id(room, id))
+        id++;
     uint32_t at = room->chosen_count++;
     for (; at > 0 && room->chosen[at - 1].distance > point->distance; at--)
         room->chosen[at] = room->chosen[at - 1];
-    room->chosen[at] = *point;
+    room->chosen[at] = (pir_surface_contact){
+        .point_p = pir_vec_add(point->q, pir_vec_scale(room->normal, point->distance)),
+        .point_q = point->q,
+        .normal = room->normal,
+        .distance = point->distance,
+        .surface = s->surface,
+        .triangle = s->number,
+        .material = pir_surface_material(room->job.input->surfaces[s->surface].surface, s->number),
+        .id = id,
+    };
 }
 
 static pir_status choose_points(struct room *room) {
     room->chosen_count = 0;
-    for (uint32_t i = 0; i < room->standing_count; i++) {
-        if (!collect_points(room, &room->standing[i]))
+    for (uint32_t i = 0; i < room->standings.count; i++) {
+        const pir_standing *standing = &room->standings.at[i];
+        struct normal_view view;
+        set_view(room, standing->normal, &view);
+        if (!collect_points(room, standing, &view))
             return PIR_ERR_MEMORY;
         reduce_points(room);
+        const pir_normal_name of = pir_contact_normal_name(&room->job, standing, &view.body);
         for (uint32_t k = 0; k < room->point_count; k++)
-            choose_point(room, &room->point[k]);
+            choose_point(room, &room->point[k], of);
     }
     return PIR_OK;
 }
@@ -278,80 +260,137 @@ static pir_status choose_points(struct room *room) {
 
 /* The state of P where it is; it has been looked at. */
 static pir_state state_of(pir_contact_job *job, bool meets) {
-    double radius = job->input->radius, least = HUGE_VAL;
+    const double radius = job->input->radius;
+    const pir_near_triangle *nearest = pir_contact_nearest_of(job);
     if (meets && radius > 0)
         return PIR_INSIDE;
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         const pir_near_triangle *s = &job->triangle[i];
-        if (!s->counts)
-            continue;
-        if (!s->near.meets)
-            least = fmin(least, s->near.distance);
-        else if (pir_contact_overlaps(job, job->input->pose.translation, s))
+        if (s->counts && s->near.meets && pir_contact_overlaps(job, job->input->pose.translation, s))
             return PIR_INSIDE;
     }
     if (meets)
         return PIR_BOUNDARY;
-    return radius == 0 || least > radius ? PIR_OUTSIDE : least < radius ? PIR_INSIDE : PIR_BOUNDARY;
+    if (radius == 0 || !nearest || nearest->near.distance > radius)
+        return PIR_OUTSIDE;
+    return nearest->near.distance < radius ? PIR_INSIDE : PIR_BOUNDARY;
 }
 
-/* All but the way out, and what follows from it. */
-static void set_result(const struct room *room, pir_state state, size_t most, pir_surface_contact_result *result) {
-    const pir_contact_job *job = &room->job;
-    *result = (pir_surface_contact_result){.state = state,
-                                           .distance = HUGE_VAL,
-                                           .surface = UINT32_MAX,
-                                           .triangle = PIR_TRIANGLE_NONE,
-                                           .contacts = room->chosen_count < most ? room->chosen_count : most,
-                                           .counts = job->counts};
-    if (room->standing_count > 0) {
-        const struct standing *nearest = &room->standing[0];
-        const pir_near_triangle *s = &job->triangle[nearest->triangle];
-        result->distance = nearest->gap;
-        result->normal = nearest->normal;
-        result->point_q = s->near.point;
-        result->surface = s->surface;
-        result->triangle = s->number;
-    }
+/* --- the result --- */
+
+static void set_nearest(const pir_near_triangle *s, const pir_standing *contact, pir_surface_contact_result *result) {
+    result->normal = contact->normal;
+    result->distance = contact->gap;
+    result->point_q = contact->point;
+    result->point_p = pir_vec_add(contact->point, pir_vec_scale(contact->normal, contact->gap));
+    result->surface = s->surface;
+    result->triangle = s->number;
 }
 
-static void set_way_out(const struct room *room, bool meets, pir_surface_contact_result *result) {
+/* The nearest triangle where P is apart from all, or overlaps them with its ball alone. */
+static void set_apart(const pir_contact_job *job, pir_surface_contact_result *result) {
+    const pir_near_triangle *s = pir_contact_nearest_of(job);
+    if (!s || s->near.distance - job->input->radius > job->input->margin)
+        return;
+    const pir_standing contact = {.gap = s->near.distance - job->input->radius,
+                                  .normal = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)),
+                                  .point = s->near.point};
+    set_nearest(s, &contact, result);
+}
+
+/*
+ * The contact of the way out: P moved by −distance · normal touches the nearest triangle at its end, and meets nothing
+ * more, for all others are as far from that end at least.
+ */
+static void set_own_contact(struct room *room, pir_surface_contact_result *result) {
+    pir_contact_job *job = &room->job;
+    const pir_near_triangle *s = pir_contact_nearest_of(job);
     result->way_out = room->out.way;
-    result->is_out = room->out.is_out;
-    result->is_shortest = room->out.is_shortest;
-    if (result->state == PIR_INSIDE)
-        result->distance = -room->out.depth;
-    else if (meets)
-        result->distance = 0;
-    if (room->standing_count > 0)
-        result->point_p = pir_vec_add(result->point_q, pir_vec_scale(result->normal, result->distance));
+    if (!s)
+        return;
+    const pir_vec3 n = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)), t = job->input->pose.translation;
+    const double gap = s->near.distance - job->input->radius;
+    const bool touches = gap <= 2 * pir_contact_step(job); // else P is held off by what it is behind of
+    const pir_vec3 move = pir_vec_sub(room->out.way, pir_vec_scale(n, touches ? gap : 0));
+    const double along = pir_vec_dot(move, n), length = pir_length(move), level = LEVEL * job->size;
+    pir_standing contact = {.gap = -fmax(along, 0), .normal = n, .point = s->near.point};
+    if (!touches)
+        contact.point = pir_vec_add(contact.point, pir_vec_scale(n, gap));
+    if (result->state == PIR_BOUNDARY) {
+        contact.gap = 0;
+        // what P touches may not be what it leaves last
+        if (length > level && pir_contact_look(job, t) && pir_contact_find_touch(job, t, &contact))
+            s = &job->triangle[contact.triangle];
+    } else if (pir_length(pir_vec_sub(move, pir_vec_scale(n, along))) > level) {
+        contact.gap = -length;
+        contact.normal = pir_vec_scale(move, 1 / length);
+    }
+    set_nearest(s, &contact, result);
+    result->is_shortest &= length <= room->out.depth + level;
+}
+
+/* The deepest contact, where no way out was found; what is touched where P does no more than that. */
+static void set_deepest(struct room *room, pir_surface_contact_result *result) {
+    const pir_surface_contact *deepest = &room->chosen[0];
+    const pir_vec3 t = room->job.input->pose.translation;
+    pir_standing contact;
+    if (result->state == PIR_BOUNDARY && pir_contact_find_touch(&room->job, t, &contact))
+        set_nearest(&room->job.triangle[contact.triangle], &contact, result);
+    if (result->state == PIR_BOUNDARY || room->chosen_count == 0)
+        return;
+    result->normal = deepest->normal;
+    result->distance = deepest->distance;
+    result->point_q = deepest->point_q;
+    result->point_p = deepest->point_p;
+    result->surface = deepest->surface;
+    result->triangle = deepest->triangle;
+}
+
+/* The contacts of P, which was looked at where the input has it. */
+static pir_status find_contacts(struct room *room, bool meets) {
+    pir_contact_job *job = &room->job;
+    const pir_vec3 t = job->input->pose.translation;
+    pir_status status = PIR_OK;
+    room->out = (pir_way_out){.t = t, .is_out = true, .is_shortest = true};
+    if (meets)
+        status = pir_contact_find_way_out(job, &room->out);
+    if (status != PIR_OK)
+        return status;
+    room->stuck = !room->out.is_out;
+    if (room->stuck) {
+        room->out = (pir_way_out){.t = t};
+        (void)pir_contact_look(job, t);
+        pir_contact_find_stuck(job, &room->standings);
+    } else if (!pir_contact_find_standings(job, &room->out, &room->standings))
+        return PIR_ERR_MEMORY;
+    return choose_points(room);
 }
 
 static pir_status run(struct room *room, size_t most, pir_surface_contact *contacts,
                       pir_surface_contact_result *ret_result) {
     pir_contact_job *job = &room->job;
-    pir_vec3 t = job->input->pose.translation;
-    pir_surface_contact_result result;
-    bool meets = pir_contact_look(job, t);
-    pir_state state = state_of(job, meets);
-    pir_status status = PIR_OK;
-    room->out = (pir_way_out){.t = t, .is_out = true, .is_shortest = true};
-    if (meets) {
-        status = pir_contact_find_way_out(job, &room->out);
-        if (status != PIR_OK)
-            return status;
-        (void)pir_contact_look(job, room->out.t);
-    }
-    find_standing(room);
-    status = choose_points(room);
-    if (status != PIR_OK)
-        return status;
-    set_result(room, state, most, &result);
-    if (state == PIR_INSIDE && job->input->radius > 0)
+    pir_surface_contact_result result = {.distance = HUGE_VAL,
+                                         .surface = UINT32_MAX,
+                                         .triangle = PIR_TRIANGLE_NONE,
+                                         .is_out = true,
+                                         .is_shortest = true};
+    const bool meets = pir_contact_look(job, job->input->pose.translation);
+    result.state = state_of(job, meets);
+    if (!meets)
+        set_apart(job, &result);
+    pir_status status = find_contacts(room, meets);
+    if (status == PIR_OK && result.state == PIR_INSIDE && job->input->radius > 0)
         status = pir_contact_find_rounded_way_out(job, &room->out);
     if (status != PIR_OK)
         return status;
-    set_way_out(room, meets, &result);
+    result.is_out = room->out.is_out;
+    result.is_shortest = room->out.is_shortest;
+    if ((meets || result.state == PIR_INSIDE) && room->out.is_out)
+        set_own_contact(room, &result);
+    else if (meets || result.state == PIR_INSIDE)
+        set_deepest(room, &result);
+    result.contacts = room->chosen_count < most ? room->chosen_count : most;
+    result.counts = job->counts;
     for (size_t i = 0; i < result.contacts; i++)
         contacts[i] = room->chosen[i];
     *ret_result = result;

@@ -34,12 +34,33 @@ struct exit_ways {
     double front;          /* the greatest depth along a front */
     struct exit_way least; /* of the triangle that is looked at */
     double far;
+    bool loose; /* also ways at whose ends P is beside their facets */
+    const pir_contact_job *job;
+    pir_vec3 t;
     const pir_near_triangle *s;
 };
 
 static bool is_near(pir_vec3 a, pir_vec3 b) {
     pir_vec3 way = pir_vec_sub(a, b);
     return pir_vec_dot(way, way) < DOUBLE * DOUBLE;
+}
+
+/* Puts a way in its place; none that is there already. */
+static void insert(struct exit_ways *ways, struct exit_way way) {
+    uint32_t at = ways->count;
+    while (at > 0 && ways->way[at - 1].depth > way.depth)
+        at--;
+    for (uint32_t k = at; k > 0 && way.depth - ways->way[k - 1].depth <= DOUBLE * ways->far; k--)
+        if (is_near(ways->way[k - 1].n, way.n))
+            return;
+    if (ways->count == MOST_WAYS)
+        ways->missed = fmin(ways->missed, fmax(ways->way[MOST_WAYS - 1].depth, way.depth));
+    else
+        ways->count++;
+    for (uint32_t k = ways->count - 1; k > at; k--)
+        ways->way[k] = ways->way[k - 1];
+    if (at < MOST_WAYS)
+        ways->way[at] = way;
 }
 
 static void add_way(void *context, const pir_contact_facet *facet) {
@@ -51,24 +72,11 @@ static void add_way(void *context, const pir_contact_facet *facet) {
         ways->front = fmax(ways->front, depth);
     if (depth < ways->least.depth)
         ways->least = (struct exit_way){facet->n, depth};
-    for (uint32_t k = 0; k < ways->count; k++)
-        if (ways->way[k].depth <= depth && is_near(ways->way[k].n, facet->n) &&
-            depth - ways->way[k].depth <= DOUBLE * ways->far)
-            return;
-    uint32_t at = ways->count;
-    while (at > 0 && ways->way[at - 1].depth > depth)
-        at--;
-    if (at == MOST_WAYS) {
+    const bool is_full = ways->count == MOST_WAYS;
+    if (is_full && depth >= fmin(ways->missed, ways->way[MOST_WAYS - 1].depth))
         ways->missed = fmin(ways->missed, depth);
-        return;
-    }
-    if (ways->count == MOST_WAYS)
-        ways->missed = fmin(ways->missed, ways->way[MOST_WAYS - 1].depth);
-    else
-        ways->count++;
-    for (uint32_t k = ways->count - 1; k > at; k--)
-        ways->way[k] = ways->way[k - 1];
-    ways->way[at] = (struct exit_way){facet->n, depth};
+    else if (ways->loose || pir_contact_may_touch(ways->job, ways->t, ways->s, facet))
+        insert(ways, (struct exit_way){facet->n, depth});
 }
 
 /* The cosine of the angle between the way to P and the front; 0 for triangles that have no side. */
@@ -106,24 +114,38 @@ static bool find_passed(pir_contact_job *job) {
     return passed;
 }
 
+/*
+ * Looks at one triangle: whether it counts. P without its radius has a point in front of it, or is behind it and the
+ * ball comes to it from there.
+ */
+static bool look_at(pir_contact_job *job, const pir_contact_place *place, pir_near_triangle *s) {
+    const double radius = job->input->radius;
+    const bool behind = pir_contact_is_behind(job, place, s);
+    s->near.meets = false;
+    if (behind && (radius == 0 || pir_contact_told_behind(job, place->at, s, 0, radius) == PIR_TOLD_YES))
+        return false;
+    pir_contact_nearest(job, place, s, &s->near);
+    return !behind || s->near.meets || s->near.distance < radius;
+}
+
 bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
     const pir_contact_place place = pir_place_at(t);
     bool meets = false;
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         pir_near_triangle *s = &job->triangle[i];
         s->passed = false;
-        s->counts = !pir_contact_is_behind(job, &place, s);
-        if (!s->counts)
-            continue;
-        pir_contact_nearest(job, &place, s, &s->near);
-        meets |= s->near.meets;
+        s->counts = look_at(job, &place, s);
+        meets |= s->counts && s->near.meets;
     }
     return meets || find_passed(job);
 }
 
 /* All ways from a place that was looked at, and of each triangle's least one the longest. */
-static struct exit_way find_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways) {
+static struct exit_way find_ways(pir_contact_job *job, pir_vec3 t, bool loose, struct exit_ways *ways) {
     struct exit_way longest = {{0, 0, 0}, -1};
+    ways->loose = loose;
+    ways->job = job;
+    ways->t = t;
     ways->count = 0;
     ways->missed = HUGE_VAL;
     ways->front = 0;
@@ -135,7 +157,7 @@ static struct exit_way find_ways(pir_contact_job *job, pir_vec3 t, struct exit_w
         ways->s = s;
         ways->least.depth = HUGE_VAL;
         if (s->passed)
-            pir_contact_front_facet(job, t, s, add_way, ways);
+            pir_contact_plane_facets(job, t, s, add_way, ways);
         else
             pir_contact_each_facet(job, t, s, add_way, ways);
         if (ways->least.depth < HUGE_VAL && ways->least.depth > longest.depth)
@@ -175,16 +197,20 @@ static bool is_met_at(pir_contact_job *job, const pir_contact_place *place, cons
     return !pir_contact_is_behind(job, place, s) && pir_contact_meets(job, place, s);
 }
 
-/* The first triangle that counts and that P meets at t; UINT32_MAX for none. */
-static uint32_t first_met(pir_contact_job *job, pir_vec3 t, pir_vec3 n) {
+/* Whether P meets nothing that counts at t. *met: a triangle that was met before, which is looked at first. */
+static bool is_clear(pir_contact_job *job, pir_vec3 t, pir_vec3 n, uint32_t *met) {
     const pir_contact_place place = pir_place_at(t);
     double least = HUGE_VAL;
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
         least = fmin(least, pir_vec_dot(n, job->vertex[v]));
+    if (*met < job->triangle_count && is_met_at(job, &place, &job->triangle[*met]))
+        return false;
     for (uint32_t i = 0; i < job->triangle_count; i++)
-        if (!is_clear_along(job, least, &job->triangle[i], n, t) && is_met_at(job, &place, &job->triangle[i]))
-            return i;
-    return UINT32_MAX;
+        if (!is_clear_along(job, least, &job->triangle[i], n, t) && is_met_at(job, &place, &job->triangle[i])) {
+            *met = i;
+            return false;
+        }
+    return true;
 }
 
 static bool is_gathered(const pir_contact_job *job, pir_vec3 t) {
@@ -199,69 +225,125 @@ static bool is_in_front(pir_contact_job *job, pir_vec3 t) {
 }
 
 /*
- * Whether a way ends where P meets nothing: a step off the triangle, or a small part of it, where another one is that
- * near.
+ * The first of the ways that ends where P meets nothing: a small part of a step off its triangle, so that the way is no
+ * longer than it has to be, and a whole step where that is free too. A loose one need be free at the whole step alone.
  */
-static bool try_way(pir_contact_job *job, pir_vec3 t, const struct exit_way *way, double step, pir_vec3 *ret_to) {
-    *ret_to = along(job, t, way, step);
-    if (!is_gathered(job, *ret_to))
-        return false;
-    uint32_t met = first_met(job, *ret_to, way->n);
-    if (met == UINT32_MAX && is_in_front(job, *ret_to))
-        return true;
-    *ret_to = along(job, t, way, PIR_CONTACT_PART_STEP * step); // likewise gathered
-    const pir_contact_place place = pir_place_at(*ret_to);
-    return (met == UINT32_MAX || !is_met_at(job, &place, &job->triangle[met])) &&
-           first_met(job, *ret_to, way->n) == UINT32_MAX && is_in_front(job, *ret_to);
-}
-
-/* The first of the ways that ends where P meets nothing. */
-static bool try_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways, double step, struct exit_way *ret_way,
+static bool try_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways, bool loose, struct exit_way *ret_way,
                      pir_vec3 *ret_to) {
+    const double step = pir_contact_step(job), first = loose ? step : PIR_CONTACT_PART_STEP * step;
+    uint32_t met = UINT32_MAX;
     for (uint32_t i = 0; i < ways->count; i++) {
-        *ret_way = ways->way[i];
-        if (try_way(job, t, ret_way, step, ret_to))
-            return true;
-        if (!is_gathered(job, *ret_to))
-            ways->missed = fmin(ways->missed, ret_way->depth);
+        const struct exit_way *way = &ways->way[i];
+        const pir_vec3 whole = along(job, t, way, step), to = along(job, t, way, first);
+        if (!is_gathered(job, whole)) {
+            ways->missed = fmin(ways->missed, way->depth);
+            continue;
+        }
+        if (!is_clear(job, to, way->n, &met) || !is_in_front(job, to))
+            continue;
+        *ret_way = *way;
+        *ret_to = is_clear(job, whole, way->n, &met) && is_in_front(job, whole) ? whole : to;
+        return true;
     }
     return false;
 }
 
-pir_status pir_contact_find_way_out(pir_contact_job *job, pir_way_out *ret_out) {
-    pir_vec3 start = job->input->pose.translation, t = start;
-    double step = pir_contact_step(job);
+const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job) {
+    const pir_near_triangle *nearest = NULL;
+    for (uint32_t i = 0; i < job->triangle_count; i++) {
+        const pir_near_triangle *s = &job->triangle[i];
+        if (s->counts && !s->near.meets && (!nearest || s->near.distance < nearest->near.distance))
+            nearest = s;
+    }
+    return nearest;
+}
+
+void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out) {
+    const double step = pir_contact_step(job);
+    const pir_near_triangle *nearest = pir_contact_nearest_of(job);
+    if (!nearest || nearest->near.distance - radius <= 2 * step)
+        return;
+    const double by = (nearest->near.distance - radius - step) / pir_length(nearest->near.n);
+    const pir_vec3 t = pir_contact_place_by(job, pir_vec_sub(out->way, pir_vec_scale(nearest->near.n, by)));
+    const bool meets = pir_contact_look(job, t);
+    nearest = pir_contact_nearest_of(job);
+    if (meets || !nearest || nearest->near.distance < radius) {
+        (void)pir_contact_look(job, out->t);
+        return;
+    }
+    out->t = t;
+    out->way = pir_vec_sub(t, job->input->pose.translation);
+    out->depth = pir_length(out->way);
+}
+
+/* A place, and whether the way there is one that leaves a triangle through a facet. */
+struct step_out {
     struct exit_ways ways;
-    struct exit_way way = find_ways(job, t, &ways);
+    double far;   /* how deep P is: triangles are needed from about that far */
+    bool goes_on; /* out->t is another place than before */
+};
+
+/* From one place, which was looked at: out->t is the next one, or the end. */
+static void leave_place(pir_contact_job *job, struct step_out *by, pir_way_out *out) {
+    const struct exit_way longest = find_ways(job, out->t, false, &by->ways);
+    struct exit_way way;
+    pir_vec3 to;
     // a thin core that leaves one triangle by its side may still have to come up through its neighbour
-    double most = fmax(way.depth, job->input->radius > 0 ? ways.front : 0);
-    double need = job->input->margin + job->input->radius + 3 * (most + step);
-    if (need > job->grown) {
+    by->far = fmax(longest.depth, job->input->radius > 0 ? by->ways.front : 0);
+    const bool tight = try_ways(job, out->t, &by->ways, false, &way, &to);
+    const double missed = by->ways.missed;
+    out->is_out = tight;
+    if (!tight && longest.depth >= 0) {
+        (void)find_ways(job, out->t, true, &by->ways);
+        out->is_out = try_ways(job, out->t, &by->ways, true, &way, &to);
+    }
+    // no way through one facet is shorter than a loose one either, where all of them were tried
+    out->is_shortest = out->is_out && way.depth < missed;
+    out->depth = tight ? way.depth : HUGE_VAL;
+    by->goes_on = out->is_out || longest.depth >= 0;
+    if (out->is_out)
+        out->t = to;
+    else if (by->goes_on)
+        out->t = along(job, out->t, &longest, pir_contact_step(job));
+}
+
+/* From the input's place: with what is gathered, then, where that is not enough, with more. */
+static pir_status leave_start(pir_contact_job *job, struct step_out *by, pir_way_out *out) {
+    const pir_vec3 start = job->input->pose.translation;
+    for (int round = 0; round < 2; round++) {
+        *out = (pir_way_out){.t = start};
+        leave_place(job, by, out);
+        const double need = job->input->margin + job->input->radius + 3 * (by->far + pir_contact_step(job));
+        if (out->is_shortest || need <= job->grown)
+            break;
         pir_status status = pir_contact_job_gather(job, need);
         if (status == PIR_OK)
             status = pir_contact_exact_reserve(job);
         if (status != PIR_OK)
             return status;
+        (void)pir_contact_look(job, start);
     }
-    double depth = 0;
-    *ret_out = (pir_way_out){.t = t};
-    for (int place = 0; place < MOST_PLACES && !ret_out->is_out; place++) {
-        ret_out->is_out = !pir_contact_look(job, t);
-        if (ret_out->is_out)
-            break;
-        struct exit_way longest = find_ways(job, t, &ways);
-        pir_vec3 to;
-        ret_out->is_out = try_ways(job, t, &ways, step, &way, &to);
-        ret_out->is_shortest = ret_out->is_out && place == 0 && way.depth < ways.missed;
-        if (!ret_out->is_out && longest.depth < 0)
-            break;
-        depth += ret_out->is_out ? way.depth : longest.depth;
-        t = ret_out->is_out ? to : along(job, t, &longest, step);
-        if (!is_gathered(job, t))
-            break;
+    return PIR_OK;
+}
+
+pir_status pir_contact_find_way_out(pir_contact_job *job, pir_way_out *ret_out) {
+    struct step_out by;
+    pir_status status = leave_start(job, &by, ret_out);
+    if (status != PIR_OK)
+        return status;
+    const bool at_once = ret_out->is_out && ret_out->depth < HUGE_VAL, shortest = ret_out->is_shortest;
+    for (int place = 1; place < MOST_PLACES && !ret_out->is_out && by.goes_on && is_gathered(job, ret_out->t);
+         place++) {
+        ret_out->is_out = !pir_contact_look(job, ret_out->t);
+        if (!ret_out->is_out)
+            leave_place(job, &by, ret_out);
     }
-    ret_out->t = t;
-    ret_out->way = pir_vec_sub(t, start);
-    ret_out->depth = ret_out->is_shortest ? depth : pir_length(ret_out->way);
+    ret_out->way = pir_vec_sub(ret_out->t, job->input->pose.translation);
+    ret_out->is_shortest = shortest;
+    ret_out->depth = at_once ? ret_out->depth : pir_length(ret_out->way);
+    if (!ret_out->is_out)
+        return PIR_OK;
+    (void)pir_contact_look(job, ret_out->t);
+    pir_contact_pull_back(job, 0, ret_out);
     return PIR_OK;
 }

@@ -8,7 +8,7 @@
 typedef struct pir_way_out {
     pir_vec3 t;   /* the place */
     pir_vec3 way; /* there from the input's */
-    double depth; /* its length; of the shortest without the step off the triangle */
+    double depth; /* its length; of one through one facet without the step off the triangle */
     bool is_out, is_shortest;
 } pir_way_out;
 
@@ -26,7 +26,20 @@ double pir_contact_step(const pir_contact_job *job);
 /* Where another triangle is near: a part of it. */
 #define PIR_CONTACT_PART_STEP 0x1p-16
 
-/* The way out for P, which meets triangles where it is; gathers more triangles where it needs them. */
+/* The nearest triangle that counts and is not met, at the place that was looked at; NULL for none. */
+const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job);
+
+/*
+ * Ends a way, whose end was looked at, a step off the triangles grown by `radius`: P goes back towards the nearest one.
+ * All others are as far, so it meets none on that way either, unless there are one-sided ones that it is behind where
+ * it is, and not there: then it stays. The end is looked at.
+ */
+void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out);
+
+/*
+ * The way out for P, which meets triangles where it is and was looked at there. Gathers more triangles where it needs
+ * them. The end of a way that is found is looked at.
+ */
 pir_status pir_contact_find_way_out(pir_contact_job *job, pir_way_out *ret_out);
 
 #endif
