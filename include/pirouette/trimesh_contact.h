@@ -22,9 +22,9 @@
  * x is at a wall between pieces, or at its rim, and the contact is a ghost. Decided by exact signs, for pieces of
  * dimension 3. What another piece meets elsewhere hides no contact of P. Pieces with a radius count without it here.
  *
- * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count. With
- * a radius it counts all the same where the ball comes to it from behind, which is where P without the radius is nearer
- * to it than that. Behind others lies a solid, however thin: no contact pushes into it.
+ * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count.
+ * With a radius it counts all the same where the ball comes to it from behind, which is where P without the radius is
+ * nearer to it than that. Behind others lies a solid, however thin: no contact pushes into it.
  *
  * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
  * contact is that of its nearest points. Where P meets another triangle on that way, y may also be a place beside,
@@ -39,7 +39,7 @@
  * P may be stuck: between walls that are nearer to each other than it is wide no way out is found. `is_out` tells, and
  * way_out is 0. Contacts then push both ways, so that a solver brings P to where both depths are equal. Where P without
  * its radius is apart from the walls, they are those of the theorem. Where it is not, each triangle that P meets pushes
- * across its own plane: a one-sided one to its front, another one to the side that is nearer. Ghosts are not told there.
+ * across its own plane: a one-sided one to its front, another one to the nearer side. Ghosts are not told there.
  *
  * Exact for the doubles given: the state of a polytope without a radius, and which contacts are ghosts. With a radius
  * both follow from distances that are within 2^-40 of the size of the coordinates. Distances, points and normals are

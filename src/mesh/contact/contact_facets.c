@@ -62,17 +62,6 @@ static void offer_across(const struct tour *tour, uint32_t k, uint32_t edge) {
     }
 }
 
-static void turn(pir_contact_job *job) {
-    const pir_polytope *p = job->p;
-    if (job->has_turned)
-        return;
-    for (uint32_t f = 0; f < p->facet_count; f++)
-        job->turned[f] = pir_mat_apply(&job->rotation.r, p->normal[f]);
-    for (uint32_t e = 0; e < p->edge_count; e++)
-        job->turned[p->facet_count + e] = pir_mat_apply(&job->rotation.r, p->direction[p->edge_half[e]]);
-    job->has_turned = true;
-}
-
 void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                             pir_contact_facet_visitor *visit, void *context) {
     double far = 2 * job->radius, sides = 0;
@@ -84,7 +73,7 @@ void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_tri
     double off = (8 * job->error * sides + 0x1p-48 * sides * sides) / area;
     const struct tour tour = {far, job, s, t, visit, context};
     const pir_polytope *p = job->p;
-    turn(job);
+    pir_contact_turn(job);
     if (pir_vec_dot(s->front, s->front) > 0) {
         offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, off});
         offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 1, 0, pir_vec_scale(s->front, -1), 0, off});
@@ -221,12 +210,12 @@ static void try_separating(void *context, const pir_contact_facet *facet) {
     limbs->used = used;
 }
 
-bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s) {
+bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, bool exactly) {
     double size = job->radius + pir_length(pir_vec_sub(t, s->p[0]));
     struct facet_search search = {job, pir_place_at(t), s, 0x1p-44 * size + 16 * job->error, HUGE_VAL, false};
     pir_contact_each_facet(job, t, s, find_least, &search);
-    if (search.least > search.error)
-        return true;
+    if (search.least > search.error || !exactly)
+        return search.least > search.error;
     job->counts.exact++;
     pir_contact_each_facet(job, t, s, try_separating, &search);
     return !search.separated;

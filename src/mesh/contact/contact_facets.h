@@ -32,13 +32,13 @@ void pir_contact_plane_facets(pir_contact_job *job, pir_vec3 t, const pir_near_t
                               pir_contact_facet_visitor *visit, void *context);
 
 /*
- * Whether P, moved along a facet's normal by its depth, may touch the triangle there: false where it certainly is beside
- * the facet, so that a shorter way leaves this triangle.
+ * Whether P, moved along a facet's normal by its depth, may touch the triangle there: false where it certainly is
+ * beside the facet, so that a shorter way leaves this triangle.
  */
 bool pir_contact_may_touch(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                            const pir_contact_facet *facet);
 
-/* Whether interior points meet: P, which meets the triangle, overlaps it, exactly. */
-bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s);
+/* Whether interior points meet: P, which meets the triangle, overlaps it. By doubles alone: if it surely does. */
+bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, bool exactly);
 
 #endif

@@ -4,9 +4,10 @@
  * normal, and each of the three is named so that the name stays while P moves a little:
  *
  * - a feature of P by its vertex, the two of its edge, or as a facet;
- * - a triangle by its number, but its edges and corners by the numbers of corners, which triangles that meet there share;
- * - the normal of a plane of a triangle by its direction in the frame of the surface, that of a facet of P by its number,
- *   and one of an edge or a vertex of P on one of a triangle by the vertices and by the numbers of the corners.
+ * - a triangle by its number, but its edges and corners by the numbers of corners, which triangles that meet there
+ *   share;
+ * - the normal of a plane of a triangle by its direction in the frame of the surface, that of a facet of P by its
+ *   number, and one of an edge or a vertex of P on one of a triangle by the vertices and by the numbers of the corners.
  */
 #ifndef PIR_MESH_CONTACT_CONTACT_ID_H
 #define PIR_MESH_CONTACT_CONTACT_ID_H

@@ -95,6 +95,17 @@ static pir_status turn_vertices(pir_contact_job *job) {
     return most <= PIR_MESH_FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
 }
 
+void pir_contact_turn(pir_contact_job *job) {
+    const pir_polytope *p = job->p;
+    if (job->has_turned)
+        return;
+    for (uint32_t f = 0; f < p->facet_count; f++)
+        job->turned[f] = pir_mat_apply(&job->rotation.r, p->normal[f]);
+    for (uint32_t e = 0; e < p->edge_count; e++)
+        job->turned[p->facet_count + e] = pir_mat_apply(&job->rotation.r, p->direction[p->edge_half[e]]);
+    job->has_turned = true;
+}
+
 /* --- triangles --- */
 
 struct gathering {

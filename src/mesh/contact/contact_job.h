@@ -24,9 +24,10 @@ typedef struct pir_contact_simplex {
     uint32_t count, v[4], w[4];
 } pir_contact_simplex;
 
-/* Nearest points of P and a triangle. Which simplex holds them is exact; numbers are doubles. */
+/* Nearest points of P and a triangle. Whether they meet is exact; numbers are doubles. */
 typedef struct pir_contact_near {
-    bool meets; /* exactly; then the rest is not set */
+    bool meets;  /* then the rest is not set */
+    bool proven; /* the simplex that holds the nearest points is exactly that; else it is what doubles found */
     pir_contact_simplex simplex;
     pir_vec3 way;    /* from the triangle to P */
     double distance; /* its length */
@@ -64,7 +65,7 @@ typedef struct pir_contact_job {
     const pir_surface_contact_input *input;
     pir_vec3 *vertex; /* of P, turned */
     uint32_t vertex_room;
-    pir_vec3 *turned; /* normals of P's facets, then directions of its edges, turned: made when a depth is asked for */
+    pir_vec3 *turned; /* normals of P's facets, then directions of its edges, turned: see pir_contact_turn */
     uint32_t turned_room;
     bool has_turned;
     double radius; /* of a ball about P's origin that holds P's vertices */
@@ -97,6 +98,8 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
                                  double grow);
 /* Gathers anew. */
 pir_status pir_contact_job_gather(pir_contact_job *job, double grow);
+/* Sets `turned`, once a call. */
+void pir_contact_turn(pir_contact_job *job);
 /* Room in `order` for all triangles; false when out of memory. */
 bool pir_contact_reserve_order(pir_contact_job *job);
 void pir_contact_job_finish(pir_contact_job *job);

@@ -56,32 +56,48 @@ static bool span_three(const pir_vec3 *a, const pir_vec3 *b, const pir_vec3 *c, 
     return w[0] > 0 && w[1] > 0 && w[2] > 0;
 }
 
-/* Considers the points of a mask. */
-static void consider(const struct hull *hull, uint32_t mask, double *least, struct hull *best) {
-    uint32_t at[4], count = 0;
-    for (uint32_t k = 0; k < hull->ids.count; k++)
+/* A face of a hull, and its point that is nearest to 0. */
+struct face {
+    uint32_t mask; /* of the hull's points; 0 for none */
+    double square, weight[3];
+    pir_vec3 nearest;
+};
+
+static uint32_t points_of(uint32_t mask, uint32_t at[4]) {
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < 4; k++)
         if (mask >> k & 1)
             at[count++] = k;
-    double w[3] = {1, 0, 0}, whole = 1;
+    return count;
+}
+
+/* Takes the points of a mask, three at most, where what is nearest to 0 of their span is between them, and nearer. */
+static void consider(const struct hull *hull, uint32_t mask, struct face *best) {
+    uint32_t at[4];
+    const uint32_t count = points_of(mask, at);
     const pir_vec3 *d = hull->d;
-    if (count == 2 && !span_two(&d[at[0]], &d[at[1]], w, &whole))
-        return;
-    if (count == 3 && !span_three(&d[at[0]], &d[at[1]], &d[at[2]], w, &whole))
+    double w[3] = {1, 0, 0}, whole = 1;
+    if (count > 3 || (count == 2 && !span_two(&d[at[0]], &d[at[1]], w, &whole)) ||
+        (count == 3 && !span_three(&d[at[0]], &d[at[1]], &d[at[2]], w, &whole)))
         return;
     pir_vec3 x = {0, 0, 0};
     for (uint32_t k = 0; k < count; k++)
         x = pir_vec_add(x, pir_vec_scale(d[at[k]], w[k] / whole));
-    double square = pir_vec_dot(x, x);
-    if (!(square < *least))
-        return;
-    *least = square;
-    best->ids.count = count;
-    best->nearest = x;
-    for (uint32_t k = 0; k < count; k++) {
-        best->ids.v[k] = hull->ids.v[at[k]];
-        best->ids.w[k] = hull->ids.w[at[k]];
-        best->d[k] = d[at[k]];
-        best->weight[k] = w[k] / whole;
+    const double square = pir_vec_dot(x, x);
+    if (best->mask == 0 || square < best->square)
+        *best = (struct face){mask, square, {w[0] / whole, w[1] / whole, w[2] / whole}, x};
+}
+
+/* Leaves the points of a face. */
+static void take_face(struct hull *hull, const struct face *face) {
+    uint32_t at[4];
+    hull->ids.count = points_of(face->mask, at);
+    hull->nearest = face->nearest;
+    for (uint32_t k = 0; k < hull->ids.count; k++) {
+        hull->ids.v[k] = hull->ids.v[at[k]];
+        hull->ids.w[k] = hull->ids.w[at[k]];
+        hull->d[k] = hull->d[at[k]];
+        hull->weight[k] = face->weight[k];
     }
 }
 
@@ -111,12 +127,10 @@ static int reduce(struct hull *hull, double error) {
         if (holds != 0)
             return holds;
     }
-    struct hull best = *hull;
-    double least = HUGE_VAL;
+    struct face best = {.mask = 0};
     for (uint32_t mask = 1u << newest; mask < 2u << newest; mask++)
-        if (__builtin_popcount(mask) <= 3)
-            consider(hull, mask, &least, &best);
-    *hull = best;
+        consider(hull, mask, &best);
+    take_face(hull, &best);
     return 0;
 }
 
@@ -159,6 +173,58 @@ static bool descend(const pir_contact_job *job, pir_vec3 t, const pir_near_trian
         int holds = reduce(hull, error);
         if (holds != 0)
             return holds > 0;
+    }
+    return false;
+}
+
+/* --- a guess --- */
+
+/* Sets a hull of three pairs, and the weights of the point of their plane that is nearest; false where it is beside. */
+static bool take_three(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, pir_contact_simplex ids,
+                       struct hull *hull) {
+    double whole;
+    hull->ids = ids;
+    for (uint32_t k = 0; k < 3; k++)
+        hull->d[k] = difference(job, t, s, ids.v[k], ids.w[k]);
+    if (!span_three(&hull->d[0], &hull->d[1], &hull->d[2], hull->weight, &whole))
+        return false;
+    for (uint32_t k = 0; k < 3; k++)
+        hull->weight[k] /= whole;
+    return true;
+}
+
+/* The facet of P that faces against n most. */
+static uint32_t facing_facet(const pir_contact_job *job, pir_vec3 n) {
+    uint32_t best = 0;
+    double most = -HUGE_VAL;
+    for (uint32_t f = 0; f < job->p->facet_count; f++) {
+        const double facing = -pir_vec_dot(n, job->turned[f]);
+        best = facing > most ? f : best;
+        most = fmax(most, facing);
+    }
+    return best;
+}
+
+/*
+ * The nearest points of most triangles under a body: P's lowest vertex over the triangle, or the triangle's highest
+ * corner under the facet of P that faces it, which is three vertices of a fan of that facet.
+ */
+static bool guess(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, struct hull *hull) {
+    const pir_polytope *p = job->p;
+    const double height = pir_vec_dot(s->front, pir_vec_sub(t, s->p[0]));
+    const pir_vec3 n = height < 0 ? pir_vec_scale(s->front, -1) : s->front;
+    const uint32_t v = least_vertex(job, n);
+    if (take_three(job, t, s, (pir_contact_simplex){3, {v, v, v}, {0, 1, 2}}, hull))
+        return true;
+    if (p->dimension < 3)
+        return false;
+    pir_contact_turn(job);
+    const uint32_t f = facing_facet(job, n), w = most_corner(s, pir_vec_scale(job->turned[f], -1));
+    const uint32_t start = p->loop_start[f], end = p->loop_start[f + 1], first = p->origin[p->loop[start]];
+    for (uint32_t i = start + 1; i + 1 < end; i++) {
+        const pir_contact_simplex ids = {3, {first, p->origin[p->loop[i]], p->origin[p->loop[i + 1]]}, {w, w, w}};
+        if (take_three(job, t, s, ids, hull))
+            return true;
     }
     return false;
 }
@@ -329,47 +395,95 @@ static void set_numbers(const pir_contact_job *job, const pir_contact_place *pla
     near->distance = pir_length(near->way);
 }
 
+/* Sets what doubles say of a simplex; whether that is the one of the nearest points, certainly. */
+static bool is_proven(const pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                      const struct hull *hull, pir_contact_near *near) {
+    const double error = 4 * job->error;
+    near->simplex = hull->ids;
+    near->axis = axis_of(job, s, &hull->ids);
+    set_numbers(job, place, s, error, near);
+    return near->distance > 4 * error && is_within(hull->d, hull->ids.count, hull->weight, error) &&
+           is_supported(job, s, near, error);
+}
+
+/* Whether a direction certainly parts P from the triangle. */
+static bool is_parted(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s, pir_vec3 n, double off) {
+    const pir_vec3 d = difference(job, at, s, least_vertex(job, n), most_corner(s, n));
+    const double length = pir_length(n);
+    return length > 0 && pir_vec_dot(n, d) > length * (2 * off + 0x1p-48 * job->size);
+}
+
+/* By integers, beginning with near->simplex. */
+static void find_exactly(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                         pir_contact_near *near) {
+    const double error = 4 * job->error;
+    near->proven = true;
+    near->meets = pir_exact_nearest(job, place, s, &near->simplex);
+    if (near->meets)
+        return;
+    near->axis = axis_of(job, s, &near->simplex);
+    set_numbers(job, place, s, error, near);
+    // what is too near for doubles has no direction in them
+    if (!(near->n_error < NEAR_ENOUGH * pir_length(near->n)) || near->distance < 4 * error) {
+        pir_exact_way(job, place, s, &near->simplex, &near->n, &near->way);
+        near->n_error = 0x1p-47;
+        near->distance = pir_length(near->way);
+    }
+}
+
+static void find_near(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s, bool exactly,
+                      pir_contact_near *near) {
+    struct hull hull;
+    const double error = 4 * job->error;
+    *near = (pir_contact_near){.proven = true};
+    if (guess(job, place->at, s, &hull) && is_proven(job, place, s, &hull, near))
+        return;
+    near->meets = descend(job, place->at, s, error, &hull);
+    if (near->meets || (hull.ids.count < 4 && is_proven(job, place, s, &hull, near)))
+        return;
+    near->simplex = hull.ids;
+    near->proven = exactly || hull.ids.count == 4 || !is_parted(job, place->at, s, hull.nearest, error);
+    if (near->proven)
+        find_exactly(job, place, s, near);
+}
+
+void pir_contact_look_near(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                           pir_contact_near *ret_near) {
+    find_near(job, place, s, false, ret_near);
+}
+
 void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                          pir_contact_near *ret_near) {
-    struct hull hull;
-    double error = 4 * job->error;
-    *ret_near = (pir_contact_near){.meets = descend(job, place->at, s, error, &hull)};
-    if (ret_near->meets)
-        return;
-    if (hull.ids.count < 4) {
-        ret_near->simplex = hull.ids;
-        ret_near->axis = axis_of(job, s, &hull.ids);
-        set_numbers(job, place, s, error, ret_near);
-        if (ret_near->distance > 4 * error && is_within(hull.d, hull.ids.count, hull.weight, error) &&
-            is_supported(job, s, ret_near, error))
-            return;
+    find_near(job, place, s, true, ret_near);
+}
+
+bool pir_contact_holds_point(pir_contact_job *job, pir_vec3 at, pir_vec3 x, double error) {
+    const pir_polytope *p = job->p;
+    const double far = 4 * job->error + error + 0x1p-46 * job->size;
+    const pir_vec3 own = pir_vec_sub(x, at);
+    if (p->dimension < 3)
+        return false;
+    pir_contact_turn(job);
+    for (uint32_t f = 0; f < p->facet_count; f++) {
+        const pir_vec3 on = job->vertex[p->origin[p->loop[p->loop_start[f]]]];
+        if (!(pir_vec_dot(job->turned[f], pir_vec_sub(own, on)) < -far))
+            return false;
     }
-    ret_near->simplex = hull.ids;
-    ret_near->meets = pir_exact_nearest(job, place, s, &ret_near->simplex);
-    if (ret_near->meets)
-        return;
-    ret_near->axis = axis_of(job, s, &ret_near->simplex);
-    set_numbers(job, place, s, error, ret_near);
-    // what is too near for doubles has no direction in them
-    if (!(ret_near->n_error < NEAR_ENOUGH * pir_length(ret_near->n)) || ret_near->distance < 4 * error) {
-        pir_exact_way(job, place, s, &ret_near->simplex, &ret_near->n, &ret_near->way);
-        ret_near->n_error = 0x1p-47;
-        ret_near->distance = pir_length(ret_near->way);
-    }
+    return true;
 }
 
 pir_vec3 pir_contact_touch_point(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s) {
     const pir_contact_simplex *ids = &s->near.simplex;
-    struct hull hull = {.ids = *ids}, best = hull;
-    double least = HUGE_VAL;
+    struct hull hull = {.ids = *ids};
+    struct face face = {.mask = 0};
     pir_vec3 x = {0, 0, 0};
     for (uint32_t k = 0; k < ids->count; k++)
         hull.d[k] = difference(job, t, s, ids->v[k], ids->w[k]);
     for (uint32_t mask = 1; mask < 1u << ids->count; mask++)
-        if (__builtin_popcount(mask) <= 3)
-            consider(&hull, mask, &least, &best);
-    for (uint32_t k = 0; k < best.ids.count; k++)
-        x = pir_vec_add(x, pir_vec_scale(s->p[best.ids.w[k]], best.weight[k]));
+        consider(&hull, mask, &face);
+    take_face(&hull, &face);
+    for (uint32_t k = 0; k < hull.ids.count; k++)
+        x = pir_vec_add(x, pir_vec_scale(s->p[hull.ids.w[k]], hull.weight[k]));
     return x;
 }
 
@@ -382,12 +496,7 @@ pir_contact_told pir_contact_told_meets(const pir_contact_job *job, pir_vec3 at,
     if (meets)
         return PIR_TOLD_YES;
     // a direction that takes all apart by more than what they are off by
-    pir_vec3 n = hull.nearest;
-    double length = pir_length(n);
-    if (hull.ids.count == 4 || !(length > 0))
-        return PIR_TOLD_NOTHING;
-    pir_vec3 d = difference(job, at, s, least_vertex(job, n), most_corner(s, n));
-    return pir_vec_dot(n, d) > length * (2 * off + 0x1p-48 * job->size) ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
+    return hull.ids.count < 4 && is_parted(job, at, s, hull.nearest, off) ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
 }
 
 bool pir_contact_meets(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s) {

@@ -5,8 +5,16 @@
 
 #include "mesh/contact/contact_exact.h"
 
+/* What doubles find, where these prove that P is apart or meets; else exactly. */
+void pir_contact_look_near(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                           pir_contact_near *ret_near);
+
+/* The nearest points, exactly. */
 void pir_contact_nearest(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                          pir_contact_near *ret_near);
+
+/* Whether P has a point of the world certainly inside, at a place that is off by at most `error`. */
+bool pir_contact_holds_point(pir_contact_job *job, pir_vec3 at, pir_vec3 x, double error);
 
 /* A point that P at t shares with a triangle that it only touches: `near` is of there. */
 pir_vec3 pir_contact_touch_point(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s);

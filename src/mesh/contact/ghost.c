@@ -141,11 +141,21 @@ static bool is_against(struct contact *c, const pir_near_triangle *r) {
     return r->one_sided && towards_front(c, r) < 0;
 }
 
+/* Whether a corner of r rises that P has inside, where it touches: certainly, and at next to no cost. */
+static bool is_corner_inside(struct contact *c, const pir_near_triangle *r) {
+    for (int b = 0; b < 3; b++)
+        if (pir_contact_holds_point(c->job, c->moved, r->p[b], c->off) && rise(c, r, b) > 0)
+            return true;
+    return false;
+}
+
 /* Whether doubles alone tell that a triangle makes the contact a ghost. */
 static bool is_certain_killer(struct contact *c, const pir_near_triangle *r) {
     pir_contact_simplex simplex;
-    return r != c->s && c->job->ball == 0 &&
-           pir_contact_told_meets(c->job, c->moved, r, c->off, &simplex) == PIR_TOLD_YES && is_against(c, r) &&
+    if (r == c->s || c->job->ball > 0)
+        return false;
+    return (is_corner_inside(c, r) ||
+            (is_against(c, r) && pir_contact_told_meets(c->job, c->moved, r, c->off, &simplex) == PIR_TOLD_YES)) &&
            !is_behind(c, r);
 }
 

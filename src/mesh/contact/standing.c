@@ -54,6 +54,27 @@ static uint32_t list_near(pir_contact_job *job, const pir_way_out *out) {
     return count;
 }
 
+static pir_vec3 normal_of(const pir_near_triangle *s) {
+    return pir_vec_scale(s->near.n, 1 / pir_length(s->near.n));
+}
+
+/* Adds the contact of a triangle where it stands and has a normal of its own. */
+static void judge(pir_contact_job *job, const pir_way_out *out, uint32_t index, pir_standings *standings) {
+    pir_near_triangle *s = &job->triangle[index];
+    if (has_normal(standings, normal_of(s)))
+        return;
+    const bool was_proven = s->near.proven;
+    pir_contact_prove(job, out->t, index);
+    const pir_vec3 normal = normal_of(s);
+    if (!was_proven && has_normal(standings, normal))
+        return;
+    if (!pir_contact_stands(job, out->t, index)) {
+        job->counts.ghosts++;
+        return;
+    }
+    standings->at[standings->count++] = (pir_standing){index, s->gap, normal, s->near.point, s->near.simplex};
+}
+
 bool pir_contact_find_standings(pir_contact_job *job, const pir_way_out *out, pir_standings *ret) {
     ret->count = 0;
     if (!pir_contact_reserve_order(job))
@@ -61,16 +82,8 @@ bool pir_contact_find_standings(pir_contact_job *job, const pir_way_out *out, pi
     job->ball = ball_of(job);
     const uint32_t count = list_near(job, out);
     job->counts.near += count;
-    for (uint32_t k = 0; k < count && ret->count < PIR_CONTACT_NORMALS; k++) {
-        const pir_near_triangle *s = &job->triangle[job->order[k]];
-        const pir_vec3 normal = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n));
-        if (has_normal(ret, normal))
-            continue;
-        if (pir_contact_stands(job, out->t, job->order[k]))
-            ret->at[ret->count++] = (pir_standing){job->order[k], s->gap, normal, s->near.point, s->near.simplex};
-        else
-            job->counts.ghosts++;
-    }
+    for (uint32_t k = 0; k < count && ret->count < PIR_CONTACT_NORMALS; k++)
+        judge(job, out, job->order[k], ret);
     return true;
 }
 

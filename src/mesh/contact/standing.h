@@ -39,8 +39,8 @@ bool pir_contact_find_standings(pir_contact_job *job, const pir_way_out *out, pi
 void pir_contact_find_stuck(pir_contact_job *job, pir_standings *ret);
 
 /*
- * The contact of a triangle that P, where it was looked at, touches, with a normal that parts them: false where there is
- * none. Others may keep P from moving along it.
+ * The contact of a triangle that P, where it was looked at, touches, with a normal that parts them: false where there
+ * is none. Others may keep P from moving along it.
  */
 bool pir_contact_find_touch(pir_contact_job *job, pir_vec3 t, pir_standing *ret);
 

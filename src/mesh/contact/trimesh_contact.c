@@ -127,8 +127,8 @@ static bool drop_points_at(struct room *room, pir_vec3 at) {
 }
 
 /*
- * All points of a normal. Its nearest contact is one of them where no other one is as deep, and where it is at an end of
- * an edge of P, which else is now a crossing and now none, by rounding.
+ * All points of a normal. Its nearest contact is one of them where no other one is as deep, and where it is at an end
+ * of an edge of P, which else is now a crossing and now none, by rounding.
  */
 static bool collect_points(struct room *room, const pir_standing *standing, const struct normal_view *view) {
     double least = HUGE_VAL;
@@ -264,11 +264,13 @@ static pir_state state_of(pir_contact_job *job, bool meets) {
     const pir_near_triangle *nearest = pir_contact_nearest_of(job);
     if (meets && radius > 0)
         return PIR_INSIDE;
-    for (uint32_t i = 0; i < job->triangle_count; i++) {
-        const pir_near_triangle *s = &job->triangle[i];
-        if (s->counts && s->near.meets && pir_contact_overlaps(job, job->input->pose.translation, s))
-            return PIR_INSIDE;
-    }
+    // most that is overlapped is certain to be so, which saves integers for what is only touched
+    for (int exactly = 0; exactly < 2 && meets; exactly++)
+        for (uint32_t i = 0; i < job->triangle_count; i++) {
+            const pir_near_triangle *s = &job->triangle[i];
+            if (s->counts && s->near.meets && pir_contact_overlaps(job, job->input->pose.translation, s, exactly))
+                return PIR_INSIDE;
+        }
     if (meets)
         return PIR_BOUNDARY;
     if (radius == 0 || !nearest || nearest->near.distance > radius)
@@ -288,10 +290,11 @@ static void set_nearest(const pir_near_triangle *s, const pir_standing *contact,
 }
 
 /* The nearest triangle where P is apart from all, or overlaps them with its ball alone. */
-static void set_apart(const pir_contact_job *job, pir_surface_contact_result *result) {
+static void set_apart(pir_contact_job *job, pir_surface_contact_result *result) {
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     if (!s || s->near.distance - job->input->radius > job->input->margin)
         return;
+    pir_contact_prove(job, job->input->pose.translation, (uint32_t)(s - job->triangle));
     const pir_standing contact = {.gap = s->near.distance - job->input->radius,
                                   .normal = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)),
                                   .point = s->near.point};
@@ -308,6 +311,7 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     result->way_out = room->out.way;
     if (!s)
         return;
+    pir_contact_prove(job, room->out.t, (uint32_t)(s - job->triangle));
     const pir_vec3 n = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)), t = job->input->pose.translation;
     const double gap = s->near.distance - job->input->radius;
     const bool touches = gap <= 2 * pir_contact_step(job); // else P is held off by what it is behind of

@@ -124,7 +124,7 @@ static bool look_at(pir_contact_job *job, const pir_contact_place *place, pir_ne
     s->near.meets = false;
     if (behind && (radius == 0 || pir_contact_told_behind(job, place->at, s, 0, radius) == PIR_TOLD_YES))
         return false;
-    pir_contact_nearest(job, place, s, &s->near);
+    pir_contact_look_near(job, place, s, &s->near);
     return !behind || s->near.meets || s->near.distance < radius;
 }
 
@@ -256,6 +256,13 @@ const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job) {
             nearest = s;
     }
     return nearest;
+}
+
+void pir_contact_prove(pir_contact_job *job, pir_vec3 t, uint32_t index) {
+    const pir_contact_place place = pir_place_at(t);
+    pir_near_triangle *s = &job->triangle[index];
+    if (!s->near.proven)
+        pir_contact_nearest(job, &place, s, &s->near);
 }
 
 void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out) {

@@ -26,8 +26,10 @@ double pir_contact_step(const pir_contact_job *job);
 /* Where another triangle is near: a part of it. */
 #define PIR_CONTACT_PART_STEP 0x1p-16
 
-/* The nearest triangle that counts and is not met, at the place that was looked at; NULL for none. */
+/* The nearest triangle that counts and is not met, at the place t that was looked at; NULL for none. */
 const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job);
+/* Makes sure that a triangle's nearest points at t, which was looked at, are proven. */
+void pir_contact_prove(pir_contact_job *job, pir_vec3 t, uint32_t index);
 
 /*
  * Ends a way, whose end was looked at, a step off the triangles grown by `radius`: P goes back towards the nearest one.
