@@ -301,6 +301,36 @@ static void set_apart(pir_contact_job *job, pir_surface_contact_result *result) 
     set_nearest(s, &contact, result);
 }
 
+/* The deepest contact, where no way out was found; what is touched where P does no more than that. */
+static void set_deepest(struct room *room, pir_surface_contact_result *result) {
+    const pir_surface_contact *deepest = &room->chosen[0];
+    const pir_vec3 t = room->job.input->pose.translation;
+    pir_standing contact;
+    if (result->state == PIR_BOUNDARY && pir_contact_find_touch(&room->job, t, &contact))
+        set_nearest(&room->job.triangle[contact.triangle], &contact, result);
+    if (result->state == PIR_BOUNDARY || room->chosen_count == 0)
+        return;
+    result->normal = deepest->normal;
+    result->distance = deepest->distance;
+    result->point_q = deepest->point_q;
+    result->point_p = deepest->point_p;
+    result->surface = deepest->surface;
+    result->triangle = deepest->triangle;
+}
+
+/* At the end of a way where no triangle counts: P, with its radius, has come behind a one-sided one. */
+static void set_end(struct room *room, pir_surface_contact_result *result) {
+    const double length = pir_length(room->out.way);
+    const pir_vec3 low = pir_vec_add(room->job.vertex[0], room->job.input->pose.translation);
+    set_deepest(room, result);
+    if (room->chosen_count > 0 || !(length > 0))
+        return;
+    result->normal = pir_vec_scale(room->out.way, 1 / length);
+    result->distance = -length;
+    result->point_p = low;
+    result->point_q = pir_vec_add(low, room->out.way);
+}
+
 /*
  * The contact of the way out: P moved by −distance · normal touches the nearest triangle at its end, and meets nothing
  * more, for all others are as far from that end at least.
@@ -309,8 +339,10 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     pir_contact_job *job = &room->job;
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     result->way_out = room->out.way;
-    if (!s)
+    if (!s) {
+        set_end(room, result);
         return;
+    }
     pir_contact_prove(job, room->out.t, (uint32_t)(s - job->triangle));
     const pir_vec3 n = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)), t = job->input->pose.translation;
     const double gap = s->near.distance - job->input->radius;
@@ -331,23 +363,6 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     }
     set_nearest(s, &contact, result);
     result->is_shortest &= length <= room->out.depth + level;
-}
-
-/* The deepest contact, where no way out was found; what is touched where P does no more than that. */
-static void set_deepest(struct room *room, pir_surface_contact_result *result) {
-    const pir_surface_contact *deepest = &room->chosen[0];
-    const pir_vec3 t = room->job.input->pose.translation;
-    pir_standing contact;
-    if (result->state == PIR_BOUNDARY && pir_contact_find_touch(&room->job, t, &contact))
-        set_nearest(&room->job.triangle[contact.triangle], &contact, result);
-    if (result->state == PIR_BOUNDARY || room->chosen_count == 0)
-        return;
-    result->normal = deepest->normal;
-    result->distance = deepest->distance;
-    result->point_q = deepest->point_q;
-    result->point_p = deepest->point_p;
-    result->surface = deepest->surface;
-    result->triangle = deepest->triangle;
 }
 
 /* The contacts of P, which was looked at where the input has it. */
