@@ -15,6 +15,8 @@
 #define CONTACTS 512
 /* Quantities this near to 0 decide nothing. */
 #define OPEN 1e-7
+/* Heights of what is level, by roundings. */
+#define LEVEL 1e-13
 
 static uint64_t stages(void) {
     const char *text = getenv("PIR_TEST_POSES");
@@ -166,7 +168,7 @@ static enum verdict ask(const scene *sc, uint32_t r, pir_vec3 n, pir_vec3 x, pir
         return TRUE_CONTACT;
     // a triangle that only touches hides where it has the point of contact itself
     if (!hides || fabs(front) <= OPEN || (rise <= OPEN && back <= OPEN))
-        return rise <= OPEN && back < -OPEN && rise > -OPEN ? TRUE_CONTACT : UNCLEAR;
+        return fabs(rise) <= LEVEL && back < -OPEN ? TRUE_CONTACT : UNCLEAR;
     return GHOST;
 }
 
