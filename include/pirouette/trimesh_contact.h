@@ -122,7 +122,7 @@ typedef struct pir_surface_contact_counts {
  * - Inside, with a way out: P moved by −distance · normal has point_p at point_q and touches the triangle there, but
  *   for a step less than way_out, and overlaps nothing. Where the way out is that through one facet, the normal is the
  *   facet's. Where the way ends behind a one-sided triangle, there may be none that is touched: then point_q is where
- *   point_p comes to.
+ *   point_p comes to, or all is of the deepest contact.
  * - Inside, with none: of the deepest contact.
  *
  * point_p is on P with its radius where there is a way out.
@@ -133,7 +133,8 @@ typedef struct pir_surface_contact_result {
     double distance; /**< above 0 outside, HUGE_VAL beyond the margin; 0 on the boundary; at most 0 inside */
     pir_vec3 normal; /**< unit, from the surface to P; 0 where there is none within the margin */
     pir_vec3 point_p, point_q;  /**< point_p = point_q + distance · normal */
-    uint32_t surface, triangle; /**< where point_q is; PIR_TRIANGLE_NONE where none is within the margin */
+    uint32_t surface, triangle; /**< where point_q is; PIR_TRIANGLE_NONE where none is within the margin, and where a
+                                     ball leaves one-sided triangles by a way that no contact is on */
     pir_vec3 way_out; /**< a translation after which P, with its radius, meets no triangle; 0 where it meets none, and
                            where none was found */
     bool is_out; /**< whether P meets no triangle there, without a radius exactly; false where none was found nearby */

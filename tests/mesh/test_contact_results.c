@@ -96,8 +96,9 @@ static void points_and_normals_belong_to_the_distance(void **state) {
             seen[i % 2][r.state]++;
             stuck += !r.is_out;
             if (r.triangle == PIR_TRIANGLE_NONE) {
-                expect(r.state == PIR_OUTSIDE && r.distance == HUGE_VAL, "pose %llu.%d: state %d, distance %g",
-                       (unsigned long long)number, i, r.state, r.distance);
+                // a ball behind one-sided triangles may leave them by a way that no contact is on
+                expect(r.state == PIR_OUTSIDE ? r.distance == HUGE_VAL : radius > 0 && r.distance <= 0,
+                       "pose %llu.%d: state %d, distance %g", (unsigned long long)number, i, r.state, r.distance);
                 continue;
             }
             expect(r.state == PIR_OUTSIDE    ? r.distance > 0

@@ -308,7 +308,7 @@ static void set_deepest(struct room *room, pir_surface_contact_result *result) {
     pir_standing contact;
     if (result->state == PIR_BOUNDARY && pir_contact_find_touch(&room->job, t, &contact))
         set_nearest(&room->job.triangle[contact.triangle], &contact, result);
-    if (result->state == PIR_BOUNDARY || room->chosen_count == 0)
+    if (result->state == PIR_BOUNDARY || room->chosen_count == 0 || deepest->distance > 0)
         return;
     result->normal = deepest->normal;
     result->distance = deepest->distance;
@@ -318,17 +318,16 @@ static void set_deepest(struct room *room, pir_surface_contact_result *result) {
     result->triangle = deepest->triangle;
 }
 
-/* At the end of a way where no triangle counts: P, with its radius, has come behind a one-sided one. */
-static void set_end(struct room *room, pir_surface_contact_result *result) {
+/* Of P that overlaps where no contact says so: its ball is behind one-sided triangles. As deep as its way is long. */
+static void set_way(const struct room *room, pir_surface_contact_result *result) {
     const double length = pir_length(room->out.way);
-    const pir_vec3 low = pir_vec_add(room->job.vertex[0], room->job.input->pose.translation);
-    set_deepest(room, result);
-    if (room->chosen_count > 0 || !(length > 0))
+    result->distance = -fmax(room->out.depth, 0);
+    if (!(length > 0))
         return;
     result->normal = pir_vec_scale(room->out.way, 1 / length);
     result->distance = -length;
-    result->point_p = low;
-    result->point_q = pir_vec_add(low, room->out.way);
+    result->point_p = pir_vec_add(room->job.vertex[0], room->job.input->pose.translation);
+    result->point_q = pir_vec_add(result->point_p, room->out.way);
 }
 
 /*
@@ -340,7 +339,7 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     result->way_out = room->out.way;
     if (!s) {
-        set_end(room, result);
+        set_deepest(room, result);
         return;
     }
     pir_contact_prove(job, room->out.t, (uint32_t)(s - job->triangle));
@@ -408,6 +407,8 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
         set_own_contact(room, &result);
     else if (meets || result.state == PIR_INSIDE)
         set_deepest(room, &result);
+    if (result.state == PIR_INSIDE && !(result.distance <= 0))
+        set_way(room, &result);
     result.contacts = room->chosen_count < most ? room->chosen_count : most;
     result.counts = job->counts;
     for (size_t i = 0; i < result.contacts; i++)
