@@ -2,9 +2,9 @@
 /*
  * Contacts of a box, a capsule, a hull of 20 points, a ball and a plate as wide as all with a field of 64 × 64 cells,
  * flat or rough, by pir_surface_contacts: mesh_contacts.csv has a line for each body, field, size of cells and place:
- * apart by a thousandth of the body or overlapping by that, likewise where all is aligned, and, of bodies with a radius,
- * half of the radius deep and with the core behind. Bodies are tilted by 10^-4 unless they are aligned, and move over
- * the field.
+ * apart by a thousandth of the body or overlapping by that, likewise where all is aligned, and, of bodies with a
+ * radius, half of the radius deep and with the core behind. Bodies are tilted by 10^-4 unless they are aligned, and
+ * move over the field.
  *
  *     bench_contacts FOLDER
  */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Any bytes as a body over triangles. What is told hangs together: points over each other, the deepest first, numbers
- * that differ, ways out that end where nothing is met. Without a radius the state is that of integers, apart bodies have
- * all contacts of the union and none else (oracle/contacts.h).
+ * Any bytes as a body over triangles. All that is told hangs together: points over each other, the deepest first,
+ * numbers that differ, ways out that end where nothing is met. Without a radius the state is that of integers, and
+ * bodies that are apart have all contacts of the union and none else (oracle/contacts.h).
  *
  * The bytes: a way of numbers, an exponent, points of the body, triangles with their sides, two poses, radius, margin.
  * See fuzz_sum.c for how to run an engine.

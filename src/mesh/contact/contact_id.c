@@ -2,7 +2,7 @@
 /* Numbers of contacts: see contact_id.h. */
 #include "mesh/contact/contact_id.h"
 
-/* What names of normals begin with. */
+/* The first part of the name of a normal. */
 enum normal_kind { OF_PLANE = 1, OF_FACET, OF_FEATURES };
 
 /* Directions in a surface are named by coordinates that are rounded to this. */

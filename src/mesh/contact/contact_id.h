@@ -18,7 +18,7 @@
 /* The features of a pair of nearest points. */
 pir_contact_feature pir_contact_feature_of(const pir_contact_simplex *simplex);
 
-/* What the normal of a contact that stands belongs to. */
+/* A normal by the thing that it belongs to. */
 typedef struct pir_normal_name {
     bool of_plane;
     uint64_t name; /* unless it is of a plane */

@@ -57,7 +57,7 @@ static bool span_three(const pir_vec3 *a, const pir_vec3 *b, const pir_vec3 *c, 
 }
 
 /* A face of a hull, and its point that is nearest to 0. */
-struct face {
+struct hull_face {
     uint32_t mask; /* of the hull's points; 0 for none */
     double square, weight[3];
     pir_vec3 nearest;
@@ -72,7 +72,7 @@ static uint32_t points_of(uint32_t mask, uint32_t at[4]) {
 }
 
 /* Takes the points of a mask, three at most, where what is nearest to 0 of their span is between them, and nearer. */
-static void consider(const struct hull *hull, uint32_t mask, struct face *best) {
+static void consider(const struct hull *hull, uint32_t mask, struct hull_face *best) {
     uint32_t at[4];
     const uint32_t count = points_of(mask, at);
     const pir_vec3 *d = hull->d;
@@ -85,11 +85,11 @@ static void consider(const struct hull *hull, uint32_t mask, struct face *best) 
         x = pir_vec_add(x, pir_vec_scale(d[at[k]], w[k] / whole));
     const double square = pir_vec_dot(x, x);
     if (best->mask == 0 || square < best->square)
-        *best = (struct face){mask, square, {w[0] / whole, w[1] / whole, w[2] / whole}, x};
+        *best = (struct hull_face){mask, square, {w[0] / whole, w[1] / whole, w[2] / whole}, x};
 }
 
 /* Leaves the points of a face. */
-static void take_face(struct hull *hull, const struct face *face) {
+static void take_face(struct hull *hull, const struct hull_face *face) {
     uint32_t at[4];
     hull->ids.count = points_of(face->mask, at);
     hull->nearest = face->nearest;
@@ -127,7 +127,7 @@ static int reduce(struct hull *hull, double error) {
         if (holds != 0)
             return holds;
     }
-    struct face best = {.mask = 0};
+    struct hull_face best = {.mask = 0};
     for (uint32_t mask = 1u << newest; mask < 2u << newest; mask++)
         consider(hull, mask, &best);
     take_face(hull, &best);
@@ -475,7 +475,7 @@ bool pir_contact_holds_point(pir_contact_job *job, pir_vec3 at, pir_vec3 x, doub
 pir_vec3 pir_contact_touch_point(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s) {
     const pir_contact_simplex *ids = &s->near.simplex;
     struct hull hull = {.ids = *ids};
-    struct face face = {.mask = 0};
+    struct hull_face face = {.mask = 0};
     pir_vec3 x = {0, 0, 0};
     for (uint32_t k = 0; k < ids->count; k++)
         hull.d[k] = difference(job, t, s, ids->v[k], ids->w[k]);

@@ -5,7 +5,7 @@
 
 #include "mesh/contact/contact_exact.h"
 
-/* What doubles find, where these prove that P is apart or meets; else exactly. */
+/* The nearest points by doubles, where these prove that P is apart or meets; else exactly. */
 void pir_contact_look_near(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                            pir_contact_near *ret_near);
 

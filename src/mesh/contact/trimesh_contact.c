@@ -62,7 +62,7 @@ static bool add_point(struct room *room, struct normal_point point) {
     return true;
 }
 
-/* What all triangles are looked at with for one normal. */
+/* A normal, along which all triangles are looked at. */
 struct normal_view {
     pir_patch_frame frame;
     pir_contact_patch body; /* P's part that faces against it */
@@ -331,8 +331,8 @@ static void set_way(const struct room *room, pir_surface_contact_result *result)
 }
 
 /*
- * The contact of the way out: P moved by −distance · normal touches the nearest triangle at its end, and meets nothing
- * more, for all others are as far from that end at least.
+ * The contact of the way out: P moved by −distance · normal touches the nearest triangle at its end, and meets no
+ * other, for all others are as far from that end at least.
  */
 static void set_own_contact(struct room *room, pir_surface_contact_result *result) {
     pir_contact_job *job = &room->job;
