@@ -160,7 +160,8 @@ typedef struct pir_surface_contact_result {
  * most, ret_contacts      at most how many, and room for them; the deepest are kept.
  * ret_result              state, distance, the number of contacts.
  *
- * Cost: O(log n + k · (v + k')) for k triangles near P, v vertices and k' triangles that P meets at a contact.
+ * Cost: O(log n + k · (v + log k)) for k triangles near P and v vertices, and O(k) for each contact that is looked at
+ * and that the triangle that hid the one before does not hide.
  * Errors: those of a call.
  */
 PIR_API pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace,
