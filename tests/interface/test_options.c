@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <pirouette/baseline.h>
+#include <pirouette/clash.h>
 #include <pirouette/cspace.h>
 #include <pirouette/exact.h>
 #include <pirouette/history.h>
@@ -275,6 +276,25 @@ static pir_status ask_solid_sum(struct world *w, const void *options, pir_report
     return tell_mesh(solid_sum_mesh(w->solid, w->solid, straight, options, NULL, &mesh), &mesh, told);
 }
 
+static pir_status ask_clash_body_create(struct world *w, const void *options, pir_report *report, double *told) {
+    pir_clash_body *body = NULL;
+    (void)report;
+    *told = 0;
+    const pir_status status = pir_clash_body_create(w->solid, options, &body);
+    pir_clash_body_destroy(body);
+    return status;
+}
+
+static pir_status ask_solid_certify_exact(struct world *w, const void *options, pir_report *report, double *told) {
+    mpq_t added, lost;
+    (void)report;
+    mpq_inits(added, lost, NULL);
+    const pir_status status = pir_solid_certify_exact(w->solid, &w->cube, 1, options, added, lost);
+    *told = mpq_get_d(added) + mpq_get_d(lost);
+    mpq_clears(added, lost, NULL);
+    return status;
+}
+
 static pir_status ask_trimesh_create(struct world *w, const void *options, pir_report *report, double *told) {
     static const uint32_t triangle[] = {0, 2, 1};
     const pir_trimesh_arrays arrays = {
@@ -411,6 +431,8 @@ static const struct call {
     {"pir_solid_read_bytes", ask_solid_read_bytes, &solid_kind, true},
     {"pir_solid_decompose", ask_solid_decompose, &decompose_kind, false},
     {"pir_solid_sum_create", ask_solid_sum, &solid_sum_kind, false},
+    {"pir_clash_body_create", ask_clash_body_create, &solid_kind, false},
+    {"pir_solid_certify_exact", ask_solid_certify_exact, &solid_kind, false},
     {"pir_trimesh_create", ask_trimesh_create, &trimesh_kind, true},
     {"pir_trimesh_read", ask_trimesh_read, &trimesh_kind, true},
     {"pir_trimesh_read_bytes", ask_trimesh_read_bytes, &trimesh_kind, true},
