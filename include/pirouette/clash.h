@@ -90,7 +90,7 @@ typedef struct pir_clash_pair {
  * within     a length, 0 or more.
  * capacity   how many pairs fit into ret_pairs, which may be NULL where that is 0.
  * ret_pairs  the first of them, by rising a, then b.
- * ret_count  how many there are, whatever the capacity.
+ * ret_count  how many there are, also beyond the capacity.
  *
  * Cost: O((n + k) log n) for k pairs.
  *

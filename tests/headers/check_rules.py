@@ -39,10 +39,10 @@ def cost(root, headers):
 
 
 def flags(root, headers):
-    """What is true or false is a bool: the one int is a dimension."""
+    """What is true or false is a bool: an int is a dimension."""
     for header, text in headers:
         for found in re.findall(r"\bint (?:\(\*)?(\w+)", plain(text)):
-            if found != "pir_polytope_dimension":
+            if found not in ("pir_polytope_dimension", "dimension"):
                 yield f"{header}: {found} is an int"
 
 

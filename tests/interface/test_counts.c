@@ -29,6 +29,7 @@ struct world {
     pir_scene *scene;
     pir_trimesh *mesh;
     pir_trimesh_pair *meshes;
+    pir_clash_body *tetrahedron;
     double height; /* where what is asked about stands; not a number makes the call fail */
 };
 
@@ -112,6 +113,11 @@ static pir_status ask_trimesh_pair_within(struct world *w, size_t capacity, void
     return pir_trimesh_pair_within(w->meshes, &input, capacity, array, count);
 }
 
+static pir_status ask_clash_pairs(struct world *w, size_t capacity, void *array, size_t *count) {
+    pir_clash_body *const bodies[] = {w->tetrahedron, w->tetrahedron, w->tetrahedron};
+    return pir_clash_pairs(bodies, 3, w->height, capacity, array, count);
+}
+
 /* `in_part`: of fewer there are the first, not any; the others give any of them. */
 static const struct {
     const char *name;
@@ -129,6 +135,7 @@ static const struct {
     {"pir_surface_ray_all", ask_surface_ray_all, sizeof(pir_ray_hit), false},
     {"pir_surface_box", ask_surface_box, sizeof(uint32_t), false},
     {"pir_trimesh_pair_within", ask_trimesh_pair_within, sizeof(pir_triangle_pair), false},
+    {"pir_clash_pairs", ask_clash_pairs, sizeof(pir_clash_pair), true},
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
@@ -139,6 +146,18 @@ static void make_scene(struct world *w) {
     assert_int_equal(pir_scene_create(&options, &w->scene), PIR_OK);
     for (int i = 0; i < BODIES; i++)
         scene_add(w->scene, w->cube, scene_at(0.1 * i, 0, 0.2 * (i - 2)), PIR_BODY_STATIC);
+}
+
+static pir_clash_body *make_tetrahedron(void) {
+    static const pir_vec3 points[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t starts[] = {0, 3, 6, 9, 12}, corners[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const pir_solid_facets facets = {points, 4, starts, corners, 4};
+    pir_solid *solid = NULL;
+    pir_clash_body *body = NULL;
+    assert_int_equal(pir_solid_create(&facets, NULL, NULL, &solid), PIR_OK);
+    assert_int_equal(pir_clash_body_create(solid, NULL, &body), PIR_OK);
+    pir_solid_release(solid);
+    return body;
 }
 
 static void make(struct world *w) {
@@ -155,10 +174,12 @@ static void make(struct world *w) {
     assert_int_equal(pir_workspace_create(NULL, &w->workspace), PIR_OK);
     assert_int_equal(pir_pair_create(w->cube, w->cube, NULL, &w->pair), PIR_OK);
     assert_int_equal(pir_trimesh_pair_create(w->mesh, w->mesh, NULL, &w->meshes), PIR_OK);
+    w->tetrahedron = make_tetrahedron();
     make_scene(w);
 }
 
 static void clear(struct world *w) {
+    pir_clash_body_destroy(w->tetrahedron);
     pir_trimesh_pair_destroy(w->meshes);
     pir_trimesh_release(w->mesh);
     pir_scene_destroy(w->scene);
