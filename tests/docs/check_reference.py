@@ -36,5 +36,5 @@ def check(headers):
 
 
 def declared(text):
-    """The public functions that a header's text declares."""
-    return re.findall(r"^PIR_API [^;(]*?\b(pir_\w+)\(", text, re.M)
+    """The public functions that a header's text declares, or defines inline."""
+    return re.findall(r"^(?:PIR_API|static inline) [^;(]*?\b(pir_\w+)\(", text, re.M)
