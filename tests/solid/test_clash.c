@@ -201,6 +201,8 @@ static void verdicts_are_those_of_the_cubes(void **state) {
         assert_int_equal(v.a_in_b, clash && count_cubes(&c.grid, 1, 2) == 0);
         assert_int_equal(v.b_in_a, clash && count_cubes(&c.grid, 2, 1) == 0);
         assert_int_equal(v.a_is_cut, back.b_is_cut);
+        assert_int_equal(v.a_is_cut, clash && count_parts(&c.grid, 1, 2) > count_parts(&c.grid, 1, 0));
+        assert_int_equal(v.b_is_cut, clash && count_parts(&c.grid, 2, 1) > count_parts(&c.grid, 2, 0));
         end_case(&c);
     }
     for (int kind = 0; kind < 6; kind++)

@@ -209,9 +209,8 @@ static void judge_overlap(struct encounter *e, pir_clash_verdict *verdict) {
     verdict->a_in_b = mpq_equal(e->volume, e->body[0]->volume);
     verdict->b_in_a = mpq_equal(e->volume, e->body[1]->volume);
     const bool within = verdict->a_in_b || verdict->b_in_a;
-    // a hole right through a body is no cut, and a body that holds another one is not pierced by it
-    verdict->b_is_cut = !within && is_cut(e, 1, NULL);
-    verdict->a_is_cut = verdict->a_is_cut && !within;
+    // a hole right through a body is no cut; one that is within the other may cut it, and is an envelope all the same
+    verdict->b_is_cut = is_cut(e, 1, NULL);
     verdict->kind = verdict->a_in_b && verdict->b_in_a       ? PIR_CLASH_DUPLICATE
                     : within                                 ? PIR_CLASH_ENVELOPE
                     : verdict->a_is_cut || verdict->b_is_cut ? PIR_CLASH_PIERCING
