@@ -192,7 +192,7 @@ static const struct option query_options[] = {
     POSE_OPTIONS,
     {"--translate", "x,y,z", "move P by this, after turning it"},
     {"--solid", NULL, "P and Q as the solids that they are, by their pieces, not their hulls"},
-    {"--direction", "x,y,z", "also how far P moves this way to leave Q, or to touch it"},
+    {"--direction", "x,y,z", "also how far P moves this way to leave Q, or to touch it; of hulls, not of solids"},
     {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
     {"--radius-p", "R", "round P by a ball of this radius"},
     {"--radius-q", "R", "round Q"},

@@ -125,7 +125,13 @@ static bool each_of_folder(const struct args *args, const char *folder, model_ta
 
 bool models_each(const struct args *args, const char *path, model_taker *take, void *context) {
     struct stat is;
-    if (stat(path, &is) == 0 && S_ISDIR(is.st_mode))
+    const bool is_there = stat(path, &is) == 0,
+               is_file = strcmp(path, "-") != 0 && strncmp(path, MODEL_SHAPE, strlen(MODEL_SHAPE)) != 0;
+    if (!is_there && is_file) {
+        complain("%s: %s: cannot open: %s", args->command->name, path, strerror(errno));
+        return false;
+    }
+    if (is_there && S_ISDIR(is.st_mode))
         return each_of_folder(args, path, take, context);
     return each_of_file(args, path, take, context);
 }

@@ -172,7 +172,7 @@ class Clash(CommandTest):
             self.assertTrue(any(name in line for line in lines), (name, lines))
         self.assertIn('"touching":\t1', done.stdout)
         self.assertIn('"refused":\t[{', done.stdout)
-        self.bad("clash", self.path / "nowhere", says=("nowhere",))
+        self.bad("clash", self.path / "nowhere", says=("nowhere", "No such file"))
         self.bad("clash", folder / "wall0.obj", "shape:cube", "--within", "-1", says=("--within",))
 
 
