@@ -10,7 +10,7 @@
 
 #include "args.h"
 
-/* One of them. All are lent for the call. */
+/* A model that was found; its strings are lent for the call. */
 struct found_model {
     const char *path, *name; /* of the file; of the object, or of the file without its folders */
     const char *text;        /* of the object, in OBJ; NULL where the file is the model */

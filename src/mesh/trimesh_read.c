@@ -90,28 +90,30 @@ static pir_status make(const struct pir_model *model, void *context) {
     return status;
 }
 
-pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_options *options, pir_report *report,
-                                  pir_trimesh **ret_mesh) {
-    if (!file || (!file->bytes && file->size > 0) || !ret_mesh)
-        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, or no place for the mesh");
+/* Reads the bytes or, where that is NULL, the file at the path. */
+static pir_status read_model(const pir_file_bytes *file, const char *path, const pir_trimesh_options *options,
+                             pir_report *report, pir_trimesh **ret_mesh) {
     pir_trimesh_options used = pir_trimesh_options_default();
     const pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
     if (status != PIR_OK)
         return status;
     const pir_allocator allocator = pir_allocator_or_default(used.allocator);
     struct trimesh_maker maker = {&used, report, ret_mesh};
-    return pir_model_read_bytes(file, &allocator, report, (struct pir_model_maker){make, &maker});
+    const struct pir_model_maker model = {make, &maker};
+    return file ? pir_model_read_bytes(file, &allocator, report, model)
+                : pir_model_read_file(path, &allocator, report, model);
+}
+
+pir_status pir_trimesh_read_bytes(const pir_file_bytes *file, const pir_trimesh_options *options, pir_report *report,
+                                  pir_trimesh **ret_mesh) {
+    if (!file || (!file->bytes && file->size > 0) || !ret_mesh)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "no bytes, or no place for the mesh");
+    return read_model(file, NULL, options, report, ret_mesh);
 }
 
 pir_status pir_trimesh_read(const char *path, const pir_trimesh_options *options, pir_report *report,
                             pir_trimesh **ret_mesh) {
     if (!path || !ret_mesh)
         return pir_fail(report, PIR_ERR_ARGUMENT, "no path, or no place for the mesh");
-    pir_trimesh_options used = pir_trimesh_options_default();
-    const pir_status status = pir_options_take("pir_trimesh_options", options, &used, &report);
-    if (status != PIR_OK)
-        return status;
-    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
-    struct trimesh_maker maker = {&used, report, ret_mesh};
-    return pir_model_read_file(path, &allocator, report, (struct pir_model_maker){make, &maker});
+    return read_model(NULL, path, options, report, ret_mesh);
 }

@@ -74,7 +74,7 @@ static bool has_vertex(const pir_polytope *p, pir_feature face, uint32_t v) {
     return false;
 }
 
-/* Those of the corners whose vertices of a body, `at`, a face of it has. */
+/* The corners, of those given, whose vertex `at` of body p lies in the face; bit i stands for corner i. */
 static uint32_t corners_at(const struct overlap *overlap, const pir_polytope *p, pir_feature face, const uint32_t *at,
                            uint32_t corners) {
     uint32_t in = 0;
@@ -91,7 +91,8 @@ static uint32_t corners_at(const struct overlap *overlap, const pir_polytope *p,
     return in;
 }
 
-/* Those of the corners, bit i for corner i, that are in a true facet of D. A vertex is asked for before a facet. */
+/* The corners, of those given, that lie in a true facet of D; bit i stands for corner i. The cheaper of both faces, a
+   vertex before a facet, is asked first. */
 static uint32_t corners_in(const struct overlap *overlap, const pir_facet *facet, uint32_t corners) {
     const pir_frame *frame = overlap->exact->frame;
     const pir_surface *surface = overlap->surface;

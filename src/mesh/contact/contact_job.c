@@ -333,3 +333,11 @@ bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s
     pir_vec3 x = s->local.p[a], y = t->local.p[b];
     return x.x == y.x && x.y == y.y && x.z == y.z && pir_near_same_frame(job, s, t);
 }
+
+uint32_t pir_contact_lowest(const pir_contact_job *job, pir_vec3 n) {
+    uint32_t best = 0;
+    for (uint32_t v = 1; v < job->p->vertex_count; v++)
+        if (pir_vec_dot(n, job->vertex[v]) < pir_vec_dot(n, job->vertex[best]))
+            best = v;
+    return best;
+}

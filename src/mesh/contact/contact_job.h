@@ -104,6 +104,9 @@ void pir_contact_turn(pir_contact_job *job);
 bool pir_contact_reserve_order(pir_contact_job *job);
 void pir_contact_job_finish(pir_contact_job *job);
 
+/* The first of the turned vertices of P that are lowest along n, by doubles. */
+uint32_t pir_contact_lowest(const pir_contact_job *job, pir_vec3 n);
+
 /* Whether corner `a` of one triangle and `b` of another are certainly at one place. */
 bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s, int a, const pir_near_triangle *t,
                           int b);

@@ -46,14 +46,6 @@ static uint32_t facing_facet(const pir_contact_job *job, pir_vec3 n) {
     return best;
 }
 
-static uint32_t lowest_vertex(const pir_contact_job *job, pir_vec3 n) {
-    uint32_t best = 0;
-    for (uint32_t v = 1; v < job->p->vertex_count; v++)
-        if (pir_vec_dot(n, job->vertex[v]) < pir_vec_dot(n, job->vertex[best]))
-            best = v;
-    return best;
-}
-
 void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame, pir_vec3 t,
                        pir_contact_patch *ret_patch) {
     const pir_polytope *p = job->p;
@@ -66,7 +58,7 @@ void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame,
             put(ret_patch, frame, pir_vec_add(job->vertex[p->origin[p->loop[i - 1]]], t), p->origin[p->loop[i - 1]]);
         return;
     }
-    uint32_t v = lowest_vertex(job, frame->n), other = v;
+    uint32_t v = pir_contact_lowest(job, frame->n), other = v;
     pir_vec3 own = pir_mat_apply_transposed(&job->rotation.r, frame->n);
     double least = TILT_SINE;
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {

@@ -117,14 +117,6 @@ static void insert(pir_standings *standings, const pir_standing *contact) {
     standings->at[at] = *contact;
 }
 
-static uint32_t lowest_vertex(const pir_contact_job *job, pir_vec3 n) {
-    uint32_t best = 0;
-    for (uint32_t v = 1; v < job->p->vertex_count; v++)
-        if (pir_vec_dot(n, job->vertex[v]) < pir_vec_dot(n, job->vertex[best]))
-            best = v;
-    return best;
-}
-
 void pir_contact_find_stuck(pir_contact_job *job, pir_standings *ret) {
     const pir_vec3 t = job->input->pose.translation;
     ret->count = 0;
@@ -137,7 +129,7 @@ void pir_contact_find_stuck(pir_contact_job *job, pir_standings *ret) {
         pir_contact_plane_facets(job, t, s, take_least, &least);
         if (!(least.depth < HUGE_VAL))
             continue;
-        const uint32_t v = lowest_vertex(job, least.n);
+        const uint32_t v = pir_contact_lowest(job, least.n);
         const pir_vec3 low = pir_vec_add(job->vertex[v], t), over = pir_vec_scale(least.n, least.depth);
         const pir_standing contact = {
             i, -least.depth - job->input->radius, least.n, pir_vec_add(low, over), {3, {v, v, v}, {0, 1, 2}}};
