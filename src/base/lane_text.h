@@ -48,7 +48,11 @@ PIR_LANES_INLINE void pir_store(double *to, pir_lane v) {
 
 /* One number in all lanes. */
 PIR_LANES_INLINE pir_lane pir_all(double x) {
-    return (pir_lane){0} + x;
+#if PIR_LANES_AVX2
+    return _mm256_set1_pd(x);
+#else
+    return (pir_lane){x, x};
+#endif
 }
 
 PIR_LANES_INLINE pir_lane pir_size(pir_lane a) {
