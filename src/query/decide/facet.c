@@ -3,6 +3,7 @@
 #include "query/decide/facet.h"
 
 #include "query/decide/placed.h"
+#include "query/decide/short_slack.h"
 
 /* --- slopes and exposed faces --- */
 
@@ -261,6 +262,9 @@ bool pir_facet_before(const pir_facet *a, const pir_facet *b) {
 
 /* The slack and its sign from integers. */
 static int exact_slack(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double *ret_slack) {
+    int side;
+    if (pir_short_slack(exact, placement->translation, facet, &side, ret_slack))
+        return side;
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 normal = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
@@ -345,6 +349,9 @@ int pir_facet_side(pir_exact *exact, const pir_placement *placement, const pir_f
     int along;
     if (side_along_axis(exact, placement, facet, &along))
         return along;
+    int side;
+    if (pir_short_slack(exact, placement->translation, facet, &side, &slack))
+        return side;
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 n = pir_exact_normal(exact, facet->piece), corner = pir_exact_corner(exact, facet->a, facet->b);
