@@ -322,6 +322,41 @@ static void floors_are_flat_at_any_size(void **state) {
     pir_workspace_destroy(workspace);
 }
 
+/* Segments through the middle of a side, turned out of its line by an angle that doubles make nothing of. */
+static void a_segment_nearly_along_a_side_touches(void **state) {
+    (void)state;
+    const pir_vec3 corner[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    static const uint32_t triangle[3] = {0, 1, 2};
+    const pir_trimesh_arrays arrays = {
+        .vertices = corner, .vertex_count = 3, .triangles = triangle, .triangle_count = 1};
+    pir_trimesh_options options = pir_trimesh_options_default();
+    options.two_sided = true;
+    pir_trimesh *mesh;
+    pir_workspace *workspace;
+    assert_int_equal(pir_trimesh_create(&arrays, &options, NULL, &mesh), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    for (int e = -60; e <= -4; e++) {
+        const double off = ldexp(1, e);
+        const pir_vec3 end[2] = {{-0.25, off, off}, {0.25, -off, -off}};
+        pir_polytope *body;
+        assert_int_equal(pir_polytope_create(end, 2, NULL, &body), PIR_OK);
+        for (int k = -1; k <= 1; k++) {
+            pir_surface_contact_result r;
+            input.pose.translation = (pir_vec3){0.5, k * off * 0x1p-20, 0};
+            assert_int_equal(pir_surface_contacts(body, workspace, &input, 0, NULL, &r), PIR_OK);
+            const pir_state want = k < 0 ? PIR_OUTSIDE : k > 0 ? PIR_INSIDE : PIR_BOUNDARY;
+            expect(r.state == want, "2^%d, %d: state %d", e, k, (int)r.state);
+        }
+        pir_polytope_release(body);
+    }
+    pir_workspace_destroy(workspace);
+    pir_trimesh_release(mesh);
+}
+
 static void triangles_all_through_one_point_end_in_bounded_time(void **state) {
     (void)state;
     pir_polytope *body = cube();
@@ -752,6 +787,7 @@ int main(void) {
         cmocka_unit_test(a_ball_beside_a_cube_is_not_pushed_over_its_top),
         cmocka_unit_test(ways_out_take_the_radius_out_too),
         cmocka_unit_test(the_deepest_contacts_come_first_and_are_kept),
+        cmocka_unit_test(a_segment_nearly_along_a_side_touches),
         cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };
     return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);

@@ -22,7 +22,8 @@ static double depth_along(const pir_contact_job *job, pir_vec3 t, const pir_near
 }
 
 struct tour {
-    double far; /* how far points of the difference are from one another */
+    double far;    /* how far points of the difference are from one another */
+    bool parallel; /* a side and an edge that are too nearly so for doubles are told of too, with no normal */
     const pir_contact_job *job;
     const pir_near_triangle *s;
     pir_vec3 t;
@@ -48,22 +49,25 @@ static void offer_across(const struct tour *tour, uint32_t k, uint32_t edge) {
         return;
     pir_vec3 n = pir_vec_cross(side, direction[edge]);
     double length = pir_length(n);
-    if (!(length > small))
+    if (!(length > small)) {
+        if (tour->parallel)
+            tour->visit(tour->context, &(pir_contact_facet){PIR_CONTACT_ACROSS, k, edge, {0, 0, 0}, -HUGE_VAL, 0});
         return;
+    }
     n = pir_vec_scale(n, 1 / length);
     double off = (8 * tour->job->error + 0x1p-48 * wide) / length;
     pir_vec3 to = pir_vec_sub(tour->s->p[(k + 2) % 3], tour->s->p[k]), of_p = pir_vec_add(left, right);
     for (int sign = -1; sign <= 1; sign += 2) {
         pir_vec3 m = pir_vec_scale(n, sign);
-        if (pir_vec_dot(m, to) > SINE_ERROR * pir_length(to) ||
-            (p->dimension == 3 && pir_vec_dot(m, of_p) > SINE_ERROR))
+        if (pir_vec_dot(m, to) > (SINE_ERROR + off) * pir_length(to) ||
+            (p->dimension == 3 && pir_vec_dot(m, of_p) > SINE_ERROR + 2 * off))
             continue;
         offer(tour, (pir_contact_facet){PIR_CONTACT_ACROSS, k, edge, m, 0, off});
     }
 }
 
-void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
-                            pir_contact_facet_visitor *visit, void *context) {
+static void visit_facets(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, bool parallel,
+                         pir_contact_facet_visitor *visit, void *context) {
     double far = 2 * job->radius, sides = 0;
     for (int k = 0; k < 3; k++) {
         far += pir_length(pir_vec_sub(s->p[k], t));
@@ -71,7 +75,7 @@ void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_tri
     }
     double area = pir_length(pir_vec_cross(pir_vec_sub(s->p[1], s->p[0]), pir_vec_sub(s->p[2], s->p[0])));
     double off = (8 * job->error * sides + 0x1p-48 * sides * sides) / area;
-    const struct tour tour = {far, job, s, t, visit, context};
+    const struct tour tour = {far, parallel, job, s, t, visit, context};
     const pir_polytope *p = job->p;
     pir_contact_turn(job);
     if (pir_vec_dot(s->front, s->front) > 0) {
@@ -85,9 +89,14 @@ void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_tri
             offer_across(&tour, k, e);
 }
 
+void pir_contact_each_facet(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
+                            pir_contact_facet_visitor *visit, void *context) {
+    visit_facets(job, t, s, false, visit, context);
+}
+
 void pir_contact_plane_facets(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s,
                               pir_contact_facet_visitor *visit, void *context) {
-    const struct tour tour = {0, job, s, t, visit, context};
+    const struct tour tour = {0, false, job, s, t, visit, context};
     if (!(pir_vec_dot(s->front, s->front) > 0))
         return;
     offer(&tour, (pir_contact_facet){PIR_CONTACT_FRONT, 0, 0, s->front, 0, 0});
@@ -210,13 +219,19 @@ static void try_separating(void *context, const pir_contact_facet *facet) {
     limbs->used = used;
 }
 
+/*
+ * A side and an edge that are parallel but for SINE_ERROR make a sliver of a facet, of which doubles have no normal.
+ * Another facet beside it is as far from 0 but for that part of the edge's length, so what is deeper than that overlaps
+ * there too; else integers are asked about the sliver.
+ */
 bool pir_contact_overlaps(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, bool exactly) {
-    double size = job->radius + pir_length(pir_vec_sub(t, s->p[0]));
-    struct facet_search search = {job, pir_place_at(t), s, 0x1p-44 * size + 16 * job->error, HUGE_VAL, false};
-    pir_contact_each_facet(job, t, s, find_least, &search);
+    const double size = job->radius + pir_length(pir_vec_sub(t, s->p[0]));
+    const double error = 0x1p-44 * size + 16 * job->error + 4 * SINE_ERROR * job->radius;
+    struct facet_search search = {job, pir_place_at(t), s, error, HUGE_VAL, false};
+    visit_facets(job, t, s, false, find_least, &search);
     if (search.least > search.error || !exactly)
         return search.least > search.error;
     job->counts.exact++;
-    pir_contact_each_facet(job, t, s, try_separating, &search);
+    visit_facets(job, t, s, true, try_separating, &search);
     return !search.separated;
 }
