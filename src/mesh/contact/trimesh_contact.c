@@ -318,15 +318,21 @@ static void set_deepest(struct room *room, pir_surface_contact_result *result) {
     result->triangle = deepest->triangle;
 }
 
-/* Of P that overlaps where no contact says so: its ball is behind one-sided triangles. As deep as its way is long. */
+/*
+ * Of P that overlaps where no contact says so: at the end of its way P is behind every triangle. As deep as its way is
+ * long; its point is the one that is last to leave.
+ */
 static void set_way(const struct room *room, pir_surface_contact_result *result) {
+    const pir_contact_job *job = &room->job;
     const double length = pir_length(room->out.way);
     result->distance = -fmax(room->out.depth, 0);
     if (!(length > 0))
         return;
     result->normal = pir_vec_scale(room->out.way, 1 / length);
     result->distance = -length;
-    result->point_p = pir_vec_add(room->job.vertex[0], room->job.input->pose.translation);
+    const pir_vec3 low = job->vertex[pir_contact_lowest(job, result->normal)];
+    const pir_vec3 own = pir_vec_sub(low, pir_vec_scale(result->normal, job->input->radius));
+    result->point_p = pir_vec_add(own, job->input->pose.translation);
     result->point_q = pir_vec_add(result->point_p, room->out.way);
 }
 
@@ -339,7 +345,10 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     result->way_out = room->out.way;
     if (!s) {
-        set_deepest(room, result);
+        if (result->state == PIR_BOUNDARY)
+            set_deepest(room, result);
+        else
+            set_way(room, result);
         return;
     }
     pir_contact_prove(job, room->out.t, (uint32_t)(s - job->triangle));
