@@ -12,28 +12,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The rows of R = M(q)/|q|², each entry off by a few 2^-104, for the quaternion q + rest. */
-static void dd_rotation(pir_quat q, pir_quat rest, pir_dd3 row[3]) {
+static pir_dd times_power(double high, double low, int by) {
+    return by == 0 ? (pir_dd){high, low} : (pir_dd){ldexp(high, by), ldexp(low, by)};
+}
+
+/*
+ * v turned by R = M(q)/|q|², or by its transpose, for the quaternion q + rest. |q|² divides it at the end, by one
+ * inverse for all: each coordinate is off by a few 2^-103 of v's length.
+ */
+static pir_dd3 dd_turn(pir_quat q, pir_quat rest, bool back, const pir_dd3 *v) {
     int top;
-    double largest = fmax(fmax(fabs(q.x), fabs(q.y)), fmax(fabs(q.z), fabs(q.w)));
-    frexp(largest, &top);
-    const pir_dd c[4] = {{ldexp(q.x, -top), ldexp(rest.x, -top)},
-                         {ldexp(q.y, -top), ldexp(rest.y, -top)},
-                         {ldexp(q.z, -top), ldexp(rest.z, -top)},
-                         {ldexp(q.w, -top), ldexp(rest.w, -top)}};
+    frexp(fmax(fmax(fabs(q.x), fabs(q.y)), fmax(fabs(q.z), fabs(q.w))), &top);
+    const int by = abs(top) > 100 ? -top : 0; // squares of others are far from the ends of the range
+    const pir_dd c[4] = {times_power(q.x, rest.x, by), times_power(q.y, rest.y, by), times_power(q.z, rest.z, by),
+                         times_power(back ? -q.w : q.w, back ? -rest.w : rest.w, by)};
     pir_dd square[4], norm = {0, 0};
+    pir_dd3 row[3], turned;
     for (int k = 0; k < 4; k++) {
         square[k] = pir_dd_mul(c[k], c[k]);
         norm = pir_dd_add(norm, square[k]);
     }
     for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        pir_dd diagonal = pir_dd_sub(pir_dd_add(square[3], square[i]), pir_dd_add(square[j], square[k]));
-        row[i].c[i] = pir_dd_divide(diagonal, norm);
-        pir_dd both = pir_dd_scale(pir_dd_mul(c[i], c[j]), 2), turn = pir_dd_scale(pir_dd_mul(c[3], c[k]), 2);
-        row[i].c[j] = pir_dd_divide(pir_dd_sub(both, turn), norm);
-        row[j].c[i] = pir_dd_divide(pir_dd_add(both, turn), norm);
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const pir_dd both = pir_dd_scale(pir_dd_mul(c[i], c[j]), 2), turn = pir_dd_scale(pir_dd_mul(c[3], c[k]), 2);
+        row[i].c[i] = pir_dd_sub(pir_dd_add(square[3], square[i]), pir_dd_add(square[j], square[k]));
+        row[i].c[j] = pir_dd_sub(both, turn);
+        row[j].c[i] = pir_dd_add(both, turn);
     }
+    const pir_dd inverse = pir_dd_divide((pir_dd){1, 0}, norm);
+    for (int i = 0; i < 3; i++) {
+        pir_dd sum = pir_dd_mul(row[i].c[0], v->c[0]);
+        for (int j = 1; j < 3; j++)
+            sum = pir_dd_add(sum, pir_dd_mul(row[i].c[j], v->c[j]));
+        turned.c[i] = pir_dd_mul(sum, inverse);
+    }
+    return turned;
 }
 
 /*
@@ -181,14 +194,9 @@ static bool same(pir_quat a, pir_quat b) {
 }
 
 void pir_frame_set_far_offset(pir_frame *frame) {
-    pir_dd3 row[3];
-    dd_rotation(frame->given, frame->rest, row);
-    for (int i = 0; i < 3; i++) {
-        pir_dd sum = frame->q.centre.c[i];
-        for (int j = 0; j < 3; j++)
-            sum = pir_dd_add(sum, pir_dd_mul(row[i].c[j], frame->p.centre.c[j]));
-        frame->offset.c[i] = sum;
-    }
+    const pir_dd3 turned = dd_turn(frame->given, frame->rest, false, &frame->p.centre);
+    for (int i = 0; i < 3; i++)
+        frame->offset.c[i] = pir_dd_add(frame->q.centre.c[i], turned.c[i]);
 }
 
 bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
@@ -212,11 +220,10 @@ static pir_vec3 turn_near(const pir_frame *frame, const pir_world *world, pir_ve
 
 /* x for any t. */
 static pir_vec3 turn_far(const pir_frame *frame, const pir_world *world, const pir_dd3 *t) {
-    pir_dd3 row[3], x = pir_dd3_negate(frame->offset);
-    dd_rotation(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, row);
+    const pir_dd3 turned = dd_turn(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, true, t);
+    pir_dd3 x = pir_dd3_negate(frame->offset);
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            x.c[i] = pir_dd_add(x.c[i], pir_dd_mul(row[j].c[i], t->c[j]));
+        x.c[i] = pir_dd_add(x.c[i], turned.c[i]);
     return pir_dd3_round(x);
 }
 
