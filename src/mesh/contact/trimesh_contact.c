@@ -8,6 +8,7 @@
 #include "mesh/contact/contact_facets.h"
 #include "mesh/contact/contact_id.h"
 #include "mesh/contact/rounded_out.h"
+#include "mesh/contact/within.h"
 
 /* Points of a normal. */
 #define MOST_POINTS 4
@@ -401,10 +402,12 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
                                          .triangle = PIR_TRIANGLE_NONE,
                                          .is_out = true,
                                          .is_shortest = true};
-    const bool meets = pir_contact_look(job, job->input->pose.translation);
+    const bool meets = pir_contact_look_first(job);
     result.state = state_of(job, meets);
     if (!meets)
         set_apart(job, &result);
+    if (!meets && result.state != PIR_INSIDE)
+        pir_contact_keep_within(job, job->input->margin + job->input->radius);
     pir_status status = find_contacts(room, meets);
     if (status == PIR_OK && result.state == PIR_INSIDE && job->input->radius > 0)
         status = pir_contact_find_rounded_way_out(job, &room->out);

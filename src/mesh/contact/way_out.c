@@ -8,6 +8,7 @@
 #include "mesh/contact/way_out.h"
 
 #include "mesh/contact/contact_facets.h"
+#include "mesh/contact/within.h"
 
 /* Ways tried from one place, and places. */
 #define MOST_WAYS   48
@@ -128,16 +129,27 @@ static bool look_at(pir_contact_job *job, const pir_contact_place *place, pir_ne
     return !behind || s->near.meets || s->near.distance < radius;
 }
 
-bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
+/* Looks at all triangles that may be within `far`; others do not count. */
+static bool look_within(pir_contact_job *job, pir_vec3 t, double far) {
     const pir_contact_place place = pir_place_at(t);
     bool meets = false;
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         pir_near_triangle *s = &job->triangle[i];
-        s->passed = false;
-        s->counts = look_at(job, &place, s);
+        const bool is_beyond = far < HUGE_VAL && pir_contact_is_beyond(job, t, s, far);
+        s->passed = s->near.meets = false;
+        s->near.distance = is_beyond ? HUGE_VAL : 0;
+        s->counts = !is_beyond && look_at(job, &place, s);
         meets |= s->counts && s->near.meets;
     }
     return meets || find_passed(job);
+}
+
+bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
+    return look_within(job, t, HUGE_VAL);
+}
+
+bool pir_contact_look_first(pir_contact_job *job) {
+    return look_within(job, job->input->pose.translation, job->input->margin + job->input->radius);
 }
 
 /* All ways from a place that was looked at, and of each triangle's least one the longest. */

@@ -17,6 +17,8 @@ typedef struct pir_way_out {
  * any that counts, or has passed any.
  */
 bool pir_contact_look(pir_contact_job *job, pir_vec3 t);
+/* Likewise where the input has P; what is certainly beyond the margin does not count, at a distance of HUGE_VAL. */
+bool pir_contact_look_first(pir_contact_job *job);
 
 /* The place that the input's translation plus a vector of doubles gives, as it rounds: about `by` from there. */
 pir_vec3 pir_contact_place_by(const pir_contact_job *job, pir_vec3 by);
