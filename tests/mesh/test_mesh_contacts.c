@@ -357,6 +357,69 @@ static void a_segment_nearly_along_a_side_touches(void **state) {
     pir_trimesh_release(mesh);
 }
 
+/* Contacts of a body with a soup of two-sided triangles, as they stand. */
+static pir_surface_contact_result ask_soup(const pir_vec3 *vertex, uint32_t vertices, const pir_vec3 (*triangle)[3],
+                                           uint32_t triangles, pir_vec3 at) {
+    uint32_t corner[SOUP_MOST * 3];
+    for (uint32_t i = 0; i < 3 * triangles; i++)
+        corner[i] = i;
+    const pir_trimesh_arrays arrays = {
+        .vertices = triangle, .vertex_count = 3 * triangles, .triangles = corner, .triangle_count = triangles};
+    pir_trimesh_options options = pir_trimesh_options_default();
+    options.two_sided = true;
+    pir_trimesh *mesh;
+    pir_polytope *body;
+    pir_workspace *workspace;
+    pir_surface_contact_result result;
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    assert_int_equal(pir_trimesh_create(&arrays, &options, NULL, &mesh), PIR_OK);
+    assert_int_equal(pir_polytope_create(vertex, vertices, NULL, &body), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    input.margin = 1;
+    input.pose.translation = at;
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 0, NULL, &result), PIR_OK);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(mesh);
+    return result;
+}
+
+/* A point over the middle of a side: the nearer it is, the less doubles know of where it is seen from there. */
+static void normals_are_true_however_near_a_point_is(void **state) {
+    (void)state;
+    const pir_vec3 triangle[1][3] = {{{2, -1.5, -0.25}, {0, 2, -0.5}, {-0.5, -2, 0.5}}}, point = {-0.25, 0, 0};
+    const double length = sqrt(0.25 + 16 + 16.25 * 16.25);
+    const pir_vec3 want = {0.5 / length, 4 / length, 16.25 / length};
+    for (int e = -60; e <= 0; e++) {
+        const pir_surface_contact_result r = ask_soup(&point, 1, triangle, 1, (pir_vec3){0, 0, ldexp(1, e - 1)});
+        expect(r.state == PIR_OUTSIDE && apart(r.normal, want) < 1e-9, "2^%d: normal %.17g %.17g %.17g", e - 1,
+               r.normal.x, r.normal.y, r.normal.z);
+    }
+}
+
+/* A cube flush with the wall of a step, and less than an ulp of its height deep in the uneven floor before it. */
+static void what_is_told_as_the_shortest_way_is_no_longer(void **state) {
+    (void)state;
+    const pir_vec3 triangle[6][3] = {
+        {{-2, -2, -4.7558878029239657e-13}, {0, -2, 8.3184525684677428e-13}, {0, 2, -1.4067213543162949e-13}},
+        {{-2, -2, 1.2163923910622101e-13}, {0, 2, -2.3807465025239881e-13}, {-2, 2, 2.9691528147718186e-13}},
+        {{0, 2, 0.49999999999921907}, {0, 2, 5.838517062290678e-13}, {0, -2, 7.1714463365748773e-14}},
+        {{0, 2, 0.5000000000003102}, {0, -2, 3.6111053299485608e-13}, {0, -2, 0.4999999999994133}},
+        {{0, -2, 0.49999999999951289}, {2, -2, 0.5000000000008501}, {2, 2, 0.49999999999997491}},
+        {{0, -2, 0.50000000000079214}, {2, 2, 0.49999999999980849}, {0, 2, 0.49999999999975625}}};
+    pir_vec3 corner[8];
+    for (int i = 0; i < 8; i++)
+        corner[i] = (pir_vec3){i & 1 ? 0.5 : -0.5, i & 2 ? 0.25 : -0.25, i & 4 ? 0.25 : -0.25};
+    for (int i = 0; i < 40; i++) {
+        const pir_vec3 at = {-0.5, 1.5 - 0.05 * i, 0.25};
+        const pir_surface_contact_result r = ask_soup(corner, 8, triangle, 6, at);
+        expect(r.state != PIR_INSIDE || !r.is_shortest || r.distance > -1e-9, "%d: depth %.17g", i, -r.distance);
+    }
+}
+
 static void triangles_all_through_one_point_end_in_bounded_time(void **state) {
     (void)state;
     pir_polytope *body = cube();
@@ -788,6 +851,8 @@ int main(void) {
         cmocka_unit_test(ways_out_take_the_radius_out_too),
         cmocka_unit_test(the_deepest_contacts_come_first_and_are_kept),
         cmocka_unit_test(a_segment_nearly_along_a_side_touches),
+        cmocka_unit_test(normals_are_true_however_near_a_point_is),
+        cmocka_unit_test(what_is_told_as_the_shortest_way_is_no_longer),
         cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };
     return cmocka_run_group_tests_name("contacts of meshes", tests, NULL, NULL);

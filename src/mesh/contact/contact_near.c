@@ -9,6 +9,8 @@
 #define MOST_STEPS 48
 /* How far a direction in doubles may be off before exact numbers give it. */
 #define NEAR_ENOUGH 0x1p-34
+/* How far off the direction of a corner or an edge that is proven may be, which its points, as near as they are, tell. */
+#define NEARLY 0x1p-29
 
 /* A simplex in doubles. */
 struct hull {
@@ -413,6 +415,13 @@ static bool is_parted(const pir_contact_job *job, pir_vec3 at, const pir_near_tr
     return length > 0 && pir_vec_dot(n, d) > length * (2 * off + 0x1p-48 * job->size);
 }
 
+static void set_exact_way(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
+                          pir_contact_near *near) {
+    pir_exact_way(job, place, s, &near->simplex, &near->n, &near->way);
+    near->n_error = 0x1p-47;
+    near->distance = pir_length(near->way);
+}
+
 /* By integers, beginning with near->simplex. */
 static void find_exactly(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s,
                          pir_contact_near *near) {
@@ -424,11 +433,8 @@ static void find_exactly(pir_contact_job *job, const pir_contact_place *place, c
     near->axis = axis_of(job, s, &near->simplex);
     set_numbers(job, place, s, error, near);
     // what is too near for doubles has no direction in them
-    if (!(near->n_error < NEAR_ENOUGH * pir_length(near->n)) || near->distance < 4 * error) {
-        pir_exact_way(job, place, s, &near->simplex, &near->n, &near->way);
-        near->n_error = 0x1p-47;
-        near->distance = pir_length(near->way);
-    }
+    if (!(near->n_error < NEAR_ENOUGH * pir_length(near->n)) || near->distance < 4 * error)
+        set_exact_way(job, place, s, near);
 }
 
 static void find_near(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s, bool exactly,
@@ -439,8 +445,13 @@ static void find_near(pir_contact_job *job, const pir_contact_place *place, cons
     if (guess(job, place->at, s, &hull) && is_proven(job, place, s, &hull, near))
         return;
     near->meets = descend(job, place->at, s, error, &hull);
-    if (near->meets || (hull.ids.count < 4 && is_proven(job, place, s, &hull, near)))
+    if (near->meets)
         return;
+    if (hull.ids.count < 4 && is_proven(job, place, s, &hull, near)) {
+        if (near->simplex.count < 3 && error > NEARLY * near->distance)
+            set_exact_way(job, place, s, near);
+        return;
+    }
     near->simplex = hull.ids;
     near->proven = exactly || hull.ids.count == 4 || !is_parted(job, place->at, s, hull.nearest, error);
     if (near->proven)

@@ -318,7 +318,7 @@ static void leave_place(pir_contact_job *job, struct step_out *by, pir_way_out *
     }
     // no way through one facet is shorter than a loose one either, where all of them were tried
     out->is_shortest = out->is_out && way.depth < missed;
-    out->depth = tight ? way.depth : HUGE_VAL;
+    out->depth = out->is_out ? way.depth : HUGE_VAL;
     by->goes_on = out->is_out || longest.depth >= 0;
     if (out->is_out)
         out->t = to;
