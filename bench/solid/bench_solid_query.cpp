@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// State and distance of two solids beside FCL's trees of triangles, at random poses, in one run.
+// State, distance and depth of two solids beside FCL's trees of triangles, in one run.
 //
 // solid_query.csv has a line for each pair of bodies: the median and the mean time of a state and of a distance, ours
 // and FCL's, and at how many poses FCL's state is another one. Both answer from nothing at every pose. A surface of
 // triangles has no inside: where a body is in a cavity or swallowed whole FCL can tell neither from the other.
+//
+// solid_depth.csv has the depth of a body that turns inside another, about an axis that changes every 50 frames, asked
+// of one query from frame to frame: the median, the mean and the 99th percentile, and the greatest and mean part by
+// which the depth of the deepest of FCL's contacts is off.
 //
 //     bench_solid_query FOLDER
 #include <algorithm>
@@ -64,6 +68,14 @@ class Ours {
         check(pir_solid_query_distance(query_, workspace_, &input, &answer));
         return answer.result.distance;
     }
+    // 0 where the insides are apart.
+    double depth(const pir_pose &pose) {
+        pir_pair_input input = pir_pair_input_default();
+        input.pose_p = pose;
+        pir_solid_depth answer;
+        check(pir_solid_query_depth(query_, workspace_, &input, &answer));
+        return answer.depth;
+    }
 
   private:
     static pir_pieces *pieces_of(const solid_model &model) {
@@ -106,6 +118,10 @@ struct Times {
     double median() {
         std::sort(us.begin(), us.end());
         return us[us.size() / 2];
+    }
+    double late() {
+        std::sort(us.begin(), us.end());
+        return us[us.size() - 1 - us.size() / 100];
     }
     double mean() const {
         double sum = 0;
@@ -159,6 +175,108 @@ void run(FILE *csv, const Row &row, uint32_t count) {
     std::fflush(stdout);
 }
 
+// --- depth ---
+
+pir_vec3 middle_of(const solid_model &model) {
+    pir_vec3 low = model.point[0], high = low;
+    for (uint32_t i = 1; i < model.points; i++) {
+        const pir_vec3 v = model.point[i];
+        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    return {(low.x + high.x) / 2, (low.y + high.y) / 2, (low.z + high.z) / 2};
+}
+
+pir_quat product(pir_quat a, pir_quat b) {
+    return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+            a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+// Turns by a step a frame about the middle of P, which stays about the middle of Q.
+class Turning {
+  public:
+    Turning(const solid_model &p, const solid_model &q, double steps)
+        : p_(middle_of(p)), q_(middle_of(q)), half_(std::acos(-1.0) / steps) {
+    }
+    pir_pose next() {
+        if (frame_++ % 50 == 0) {
+            std::normal_distribution<double> normal;
+            pir_vec3 a = {normal(random_), normal(random_), normal(random_)};
+            const double length = std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z), part = std::sin(half_) / length;
+            by_ = {a.x * part, a.y * part, a.z * part, std::cos(half_)};
+            drift_ = {0.01 * half_ * normal(random_), 0.01 * half_ * normal(random_), 0.01 * half_ * normal(random_)};
+        }
+        at_ = product(by_, at_);
+        q_ = {q_.x + drift_.x, q_.y + drift_.y, q_.z + drift_.z};
+        const pir_vec3 turned = pir_pose_rotate(pir_pose{at_, {0, 0, 0}}, p_);
+        return {at_, {q_.x - turned.x, q_.y - turned.y, q_.z - turned.z}};
+    }
+
+  private:
+    std::mt19937_64 random_{20};
+    pir_vec3 p_, q_, drift_{0, 0, 0};
+    double half_;
+    pir_quat by_{0, 0, 0, 1}, at_{0, 0, 0, 1};
+    uint32_t frame_ = 0;
+};
+
+struct DepthRow {
+    const char *name, *p, *q;
+};
+
+void run_depth(FILE *csv, const DepthRow &row, uint32_t steps, uint32_t count) {
+    const std::unique_ptr<solid_model, Free> p(solid_model_facets(row.p, 1)), q(solid_model_facets(row.q, 1));
+    Ours ours(*p, *q);
+    Turning turning(*p, *q, steps);
+    Times depth, fcl_depth;
+    double off = 0, most_off = 0;
+#ifdef PIR_HAVE_FCL
+    const auto fcl = make_fcl_solids(triangles_of(*p), triangles_of(*q));
+#endif
+    for (uint32_t frame = 0; frame < count; frame++) {
+        const pir_pose pose = turning.next();
+        Times one;
+        const double told = timed(one, [&] { return ours.depth(pose); });
+        if (!(told > 0))
+            continue;
+        depth.us.push_back(one.us[0]);
+#ifdef PIR_HAVE_FCL
+        if (frame % 10 > 0)
+            continue;
+        const double other = timed(fcl_depth, [&] { return fcl->depth(pose); });
+        const double part = std::fabs(other - told) / told;
+        off += part;
+        most_off = std::max(most_off, part);
+#endif
+    }
+    if (depth.us.empty())
+        return;
+    char peer[96] = ",,,";
+    if (!fcl_depth.us.empty())
+        std::snprintf(peer, sizeof peer, "%.3f,%.3f,%.3g,%.3g", fcl_depth.median(), fcl_depth.mean(),
+                      off / (double)fcl_depth.us.size(), most_off);
+    char line[256];
+    std::snprintf(line, sizeof line, "%s,%u,%zu,%.3f,%.3f,%.3f,%s", row.name, steps, depth.us.size(), depth.median(),
+                  depth.mean(), depth.late(), peer);
+    std::fprintf(csv, "%s\n", line);
+    std::printf("%s\n", line);
+    std::fflush(stdout);
+}
+
+void run_depths(const results &where) {
+    static const DepthRow rows[] = {{"two L-shaped extrusions", "ell", "ell"},
+                                    {"clamp and frame", "clamp", "frame"},
+                                    {"gear8 and star5", "gear8", "star5"},
+                                    {"mushroom and cup", "mushroom", "cup"}};
+    FILE *csv = results_open(&where, "solid_depth.csv");
+    std::fprintf(csv, "bodies,steps,frames,depth_us,depth_mean_us,depth_p99_us,fcl_depth_us,fcl_depth_mean_us,"
+                      "fcl_off_mean,fcl_off_most\n");
+    for (const DepthRow &row : rows)
+        for (const uint32_t steps : {500u, 5000u})
+            run_depth(csv, row, steps, results_count(2000));
+    results_close(csv, "solid_depth.csv");
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
@@ -180,5 +298,6 @@ int main(int argc, char **argv) {
     for (const Row &row : rows)
         run(csv, row, results_count(20000));
     results_close(csv, "solid_query.csv");
+    run_depths(where);
     return 0;
 }

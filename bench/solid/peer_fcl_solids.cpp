@@ -22,6 +22,15 @@ class Fcl : public FclSolids {
         fcl::DistanceResultd result;
         return fcl::distance(&p_, &q_, fcl::DistanceRequestd(true), result);
     }
+    double depth(const pir_pose &pose) override {
+        place(pose);
+        fcl::CollisionResultd result;
+        fcl::collide(&p_, &q_, fcl::CollisionRequestd(100000, true), result);
+        double deepest = 0;
+        for (size_t i = 0; i < result.numContacts(); i++)
+            deepest = std::max(deepest, std::fabs(result.getContact(i).penetration_depth));
+        return deepest;
+    }
 
   private:
     static std::shared_ptr<Tree> tree_of(const Triangles &from) {

@@ -102,6 +102,10 @@ static void add_clamp(solid_model *m) {
         8, 1);
 }
 
+static void add_ell(solid_model *m) {
+    add_prism(m, (const pir_vec3[]){{0, 0, 0}, {3, 0, 0}, {3, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}}, 6, 1);
+}
+
 /* Four trapezoids a side, and the walls outside and inside. */
 static void add_frame(solid_model *m) {
     static const double at[5][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}};
@@ -255,7 +259,7 @@ static bool make_model(solid_model *m, const char *name) {
         const char *name;
         void (*add)(solid_model *m);
     } plain[] = {{"cube", add_cube}, {"stella", add_stella}, {"clamp", add_clamp}, {"frame", add_frame},
-                 {"case", add_case}, {"cup", add_cup},       {"spoon", add_spoon}};
+                 {"case", add_case}, {"cup", add_cup},       {"spoon", add_spoon}, {"ell", add_ell}};
     for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
         if (strcmp(name, plain[i].name) == 0)
             plain[i].add(m);
