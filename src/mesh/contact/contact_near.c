@@ -9,7 +9,7 @@
 #define MOST_STEPS 48
 /* How far a direction in doubles may be off before exact numbers give it. */
 #define NEAR_ENOUGH 0x1p-34
-/* How far off the direction of a corner or an edge that is proven may be, which its points, as near as they are, tell. */
+/* How far off the direction of a corner or an edge that is proven may be, which its points tell. */
 #define NEARLY 0x1p-29
 
 /* A simplex in doubles. */

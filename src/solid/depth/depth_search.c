@@ -156,6 +156,72 @@ static uint32_t cover_of(pir_depth_search *s, uint32_t point) {
     return cover;
 }
 
+/* --- covered facets --- */
+
+/* Facets with more corners are divided at once. */
+#define MOST_CORNERS 32
+
+/* Whether all of some points, within 2^-47, are inside of a sum by doubles. */
+static bool holds_all(const pir_obstacle *o, const pir_obstacle_sum *sum, uint32_t count, double (*point)[3]) {
+    for (uint32_t f = sum->first; f < sum->first + sum->count; f++) {
+        const pir_obstacle_plane *plane = &o->plane[f];
+        const double most = plane->d - plane->err - 0x1p-46;
+        for (uint32_t i = 0; i < count; i++)
+            if (!(plane->n[0] * point[i][0] + plane->n[1] * point[i][1] + plane->n[2] * point[i][2] < most))
+                return false;
+    }
+    return true;
+}
+
+/* The corners of a facet by doubles; count 0 where they are not known so. */
+struct facet_corners {
+    uint32_t count;
+    double at[MOST_CORNERS][3];
+};
+
+/* Whether all of a facet is inside of one other sum that has covered points of late: then none of it is free. */
+static bool is_covered(pir_depth_search *s, uint32_t facet, struct facet_corners *corners) {
+    pir_obstacle *o = &s->obstacle;
+    for (uint32_t i = 0; i < s->cover_count && corners->count > 0; i++) {
+        const uint32_t cover = s->cover[i];
+        if (cover != o->plane[facet].pair && o->sum[cover].count > 0 &&
+            holds_all(o, &o->sum[cover], corners->count, corners->at)) {
+            note_cover(s, cover);
+            return true;
+        }
+    }
+    return false;
+}
+
+static double square_between(const double a[3], const double b[3]) {
+    const double to[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    return to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+}
+
+/*
+ * A lower bound of how far a facet is from the place of P: no less than `least`, which its plane is. Where the foot is
+ * beyond a side, that is how far the nearest side is. Corners and place are within 2^-46, and feet on sides by doubles
+ * are no farther than that from the true ones.
+ */
+static double facet_distance(const pir_obstacle *o, uint32_t facet, const struct facet_corners *corners, double least) {
+    const double *n = o->plane[facet].n, *t = o->point[0].x;
+    double square = HUGE_VAL;
+    bool left = false, right = false;
+    for (uint32_t i = 0; i < corners->count; i++) {
+        const double *a = corners->at[i], *b = corners->at[i + 1 < corners->count ? i + 1 : 0];
+        const double e[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w[3] = {t[0] - a[0], t[1] - a[1], t[2] - a[2]};
+        const double side = n[0] * (e[1] * w[2] - e[2] * w[1]) + n[1] * (e[2] * w[0] - e[0] * w[2]) +
+                            n[2] * (e[0] * w[1] - e[1] * w[0]);
+        const double part = (e[0] * w[0] + e[1] * w[1] + e[2] * w[2]) / (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+        const double by = part > 0 ? (part < 1 ? part : 1) : 0;
+        const double foot[3] = {a[0] + by * e[0], a[1] + by * e[1], a[2] + by * e[2]};
+        square = fmin(square, square_between(foot, t));
+        left = left || side > 0;
+        right = right || side < 0;
+    }
+    return left && right ? fmax(least, sqrt(square) - 0x1p-42) : least;
+}
+
 /* --- the nearest of all --- */
 
 /* A lower bound of how far a sum is from the place of P: 0 where its box holds it. */
@@ -170,8 +236,8 @@ static double box_distance(const pir_obstacle *o, uint32_t pair) {
     return sqrt(square) * (1 - 0x1p-48);
 }
 
-/* The facets of a pair that the place of P is strictly below. */
-static void push_facets(pir_depth_search *s, const pir_depth_item *item) {
+/* The planes of a pair's facets that the place of P is strictly below. */
+static void push_planes(pir_depth_search *s, const pir_depth_item *item) {
     pir_obstacle *o = &s->obstacle;
     const pir_obstacle_sum sum = *pir_obstacle_open(o, item->number);
     const double *t = o->point[0].x;
@@ -181,7 +247,7 @@ static void push_facets(pir_depth_search *s, const pir_depth_item *item) {
         const double room = plane->err + o->point[0].err + 0x1p-50;
         if (slack < -room || (slack <= room && pir_obstacle_exact_side(o, f, 0) >= 0))
             continue;
-        push(s, fmax(slack - room, item->least), PIR_DEPTH_FACET, f);
+        push(s, fmax(slack - room, item->least), PIR_DEPTH_PLANE, f);
     }
 }
 
@@ -200,8 +266,30 @@ static bool comes_before(pir_obstacle *o, const pir_free_part *part, const pir_d
     return pir_obstacle_exact_order(o, part->nearest, found->point) < 0;
 }
 
-static void push_part(pir_depth_search *s, uint32_t part, double least) {
-    push(s, fmax(s->parts.part[part].least, least), PIR_DEPTH_PART, part);
+static void push_parts(pir_depth_search *s, uint32_t from, double least) {
+    for (uint32_t k = from; k < s->parts.count; k++)
+        push(s, fmax(s->parts.part[k].least, least), PIR_DEPTH_PART, k);
+}
+
+/* The plane of a facet: the facet, where it may be free, by how far it is itself. */
+static void look_at_plane(pir_depth_search *s, const pir_depth_item *item) {
+    struct facet_corners corners;
+    corners.count = pir_free_parts_corners(&s->obstacle, item->number, MOST_CORNERS, corners.at);
+    if (!is_covered(s, item->number, &corners))
+        push(s, facet_distance(&s->obstacle, item->number, &corners, item->least), PIR_DEPTH_FACET, item->number);
+}
+
+/* A part: what is left of it, or, where its nearest point is free, what was found and no farther than *most. */
+static void look_at_part(pir_depth_search *s, const pir_depth_item *item, pir_depth_found *found, double *most) {
+    pir_obstacle *o = &s->obstacle;
+    const pir_free_part part = s->parts.part[item->number];
+    const uint32_t cover = cover_of(s, part.nearest);
+    if (cover != PIR_OBSTACLE_NONE) {
+        push_parts(s, pir_free_parts_subtract(&s->parts, item->number, pir_obstacle_open(o, cover)), item->least);
+    } else if (found->plane == PIR_OBSTACLE_NONE || comes_before(o, &part, found, *most)) {
+        *found = (pir_depth_found){part.plane, part.nearest};
+        *most = fmin(*most, part.most);
+    }
 }
 
 pir_status pir_depth_search_nearest(pir_depth_search *search, const pir_pair_input *input, pir_depth_found *ret_found) {
@@ -217,28 +305,20 @@ pir_status pir_depth_search_nearest(pir_depth_search *search, const pir_pair_inp
     double most = HUGE_VAL; // what was found is no farther
     while (s->heap_count > 0 && s->heap[0].least <= most && o->status == PIR_OK) {
         const pir_depth_item item = pop(s);
-        if (item.kind == PIR_DEPTH_PAIR) {
-            push_facets(s, &item);
-            continue;
+        switch (item.kind) {
+        case PIR_DEPTH_PAIR:
+            push_planes(s, &item);
+            break;
+        case PIR_DEPTH_PLANE:
+            look_at_plane(s, &item);
+            break;
+        case PIR_DEPTH_FACET:
+            push_parts(s, pir_free_parts_facet(&s->parts, item.number), item.least);
+            break;
+        case PIR_DEPTH_PART:
+            look_at_part(s, &item, &found, &most);
+            break;
         }
-        if (item.kind == PIR_DEPTH_FACET) {
-            const uint32_t from = pir_free_parts_facet(&s->parts, item.number);
-            for (uint32_t k = from; k < s->parts.count; k++)
-                push_part(s, k, item.least);
-            continue;
-        }
-        const pir_free_part part = s->parts.part[item.number];
-        const uint32_t cover = cover_of(s, part.nearest);
-        if (cover == PIR_OBSTACLE_NONE) {
-            if (found.plane == PIR_OBSTACLE_NONE || comes_before(o, &part, &found, most)) {
-                found = (pir_depth_found){part.plane, part.nearest};
-                most = fmin(most, part.most);
-            }
-            continue;
-        }
-        const uint32_t from = pir_free_parts_subtract(&s->parts, item.number, pir_obstacle_open(o, cover));
-        for (uint32_t k = from; k < s->parts.count; k++)
-            push_part(s, k, item.least);
     }
     if (o->status == PIR_OK && found.plane == PIR_OBSTACLE_NONE)
         o->status = PIR_ERR_INTERNAL;

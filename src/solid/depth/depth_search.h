@@ -5,10 +5,10 @@
 
 #include "solid/depth/free_parts.h"
 
-/* A pair, facet or part that is still to be looked at, and no nearer than `least`. */
+/* A pair, the plane of a facet, a facet or a part that is still to be looked at, and no nearer than `least`. */
 typedef struct pir_depth_item {
     double least;
-    enum { PIR_DEPTH_PAIR, PIR_DEPTH_FACET, PIR_DEPTH_PART } kind;
+    enum { PIR_DEPTH_PAIR, PIR_DEPTH_PLANE, PIR_DEPTH_FACET, PIR_DEPTH_PART } kind;
     uint32_t number;
 } pir_depth_item;
 

@@ -323,6 +323,33 @@ static struct copy_features add_facet_features(pir_free_parts *parts, const pir_
                                   .inner = inner || own->shared.inner_face[own->of->face_start[piece[side]] + face]};
 }
 
+uint32_t pir_free_parts_corners(const pir_obstacle *obstacle, uint32_t plane, uint32_t room, double (*ret_corner)[3]) {
+    const pir_obstacle_plane *f = &obstacle->plane[plane];
+    const pir_framed_body *p = &obstacle->frame.body[0], *q = &obstacle->frame.body[1];
+    const uint32_t piece[2] = {f->pair / q->of->count, f->pair % q->of->count};
+    if (f->tied)
+        return 0;
+    if (f->kind == PIR_OBSTACLE_EDGES) {
+        const pir_framed_edge *e = &p->edge[p->edge_start[piece[0]] + f->p];
+        const pir_framed_edge *g = &q->edge[q->edge_start[piece[1]] + f->q];
+        for (uint32_t i = 0; i < 4 && room >= 4; i++)
+            for (int k = 0; k < 3; k++)
+                ret_corner[i][k] = p->vertex[i == 1 || i == 2 ? e->target : e->origin][k] +
+                                   q->vertex[i >= 2 ? g->target : g->origin][k];
+        return room >= 4 ? 4 : 0;
+    }
+    const int side = f->kind == PIR_OBSTACLE_Q_FACET;
+    const pir_framed_body *own = side ? q : p, *other = side ? p : q;
+    const pir_polytope *of = own->of->piece[piece[side]];
+    const double *by = other->vertex[other->of->vertex_start[piece[1 - side]] + (side ? f->p : f->q)];
+    const uint32_t first = own->of->vertex_start[piece[side]], face = side ? f->q : f->p;
+    const uint32_t start = of->loop_start[face], count = of->loop_start[face + 1] - start;
+    for (uint32_t i = 0; i < count && count <= room; i++)
+        for (int k = 0; k < 3; k++)
+            ret_corner[i][k] = own->vertex[first + of->origin[of->loop[start + i]]][k] + by[k];
+    return count <= room ? count : 0;
+}
+
 /* Puts the sides and corners of an inner facet in its place that are not inner themselves. */
 static void add_rim(pir_free_parts *parts, uint32_t facet) {
     const pir_free_part of = parts->part[facet];

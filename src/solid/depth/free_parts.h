@@ -32,6 +32,10 @@ void pir_free_parts_finish(pir_free_parts *parts);
  * corners, or none. They are those from the returned number on. */
 uint32_t pir_free_parts_facet(pir_free_parts *parts, uint32_t plane);
 
+/* The corners of the facet of a plane by doubles, within 2^-47: how many; 0 where it may be more than the copy of one
+ * facet or has more than there is room for. */
+uint32_t pir_free_parts_corners(const pir_obstacle *obstacle, uint32_t plane, uint32_t room, double (*ret_corner)[3]);
+
 /* Adds the parts of a part that the inside of a sum leaves: those from the returned number on. */
 uint32_t pir_free_parts_subtract(pir_free_parts *parts, uint32_t part, const pir_obstacle_sum *sum);
 

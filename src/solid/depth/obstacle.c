@@ -101,8 +101,8 @@ static void add_facets(pir_obstacle *o, uint32_t pair, int side, uint32_t i, uin
                                           .q = side ? face : vertex,
                                           .kind = side ? PIR_OBSTACLE_Q_FACET : PIR_OBSTACLE_P_FACET,
                                           .tied = second > most - 0x1p-44,
-                                          .shared_p = {side ? other->shared.vertex[at] : own->shared.plane[f]},
-                                          .shared_q = {side ? own->shared.plane[f] : other->shared.vertex[at]}});
+                                          .shared_p = side ? other->shared.vertex[at] : own->shared.plane[f],
+                                          .shared_q = side ? own->shared.plane[f] : other->shared.vertex[at]});
     }
 }
 
@@ -136,8 +136,8 @@ static void add_crossing(pir_obstacle *o, const uint32_t piece[2], uint32_t pair
                                 .p = e - p->edge_start[piece[0]],
                                 .q = g - q->edge_start[piece[1]],
                                 .kind = PIR_OBSTACLE_EDGES,
-                                .shared_p = {p->shared.vertex[p->edge[e].origin], p->shared.vertex[p->edge[e].target]},
-                                .shared_q = {q->shared.vertex[q->edge[g].origin], q->shared.vertex[q->edge[g].target]},
+                                .shared_p = p->edge[e].line,
+                                .shared_q = q->edge[g].line,
                                 .turned = turned};
     for (int k = 0; k < 3; k++) {
         plane.n[k] = by * cross[k];
@@ -257,11 +257,12 @@ static bool holds_vertices(const pir_obstacle *o, const pir_obstacle_plane *f, c
     const uint32_t a = p->vertex[of[0]], b = q->vertex[of[1]];
     switch (f->kind) {
     case PIR_OBSTACLE_P_FACET:
-        return f->shared_q[0] == b && pir_shared_features_on(p, f->shared_p[0], a);
+        return f->shared_q == b && pir_shared_features_on(p, f->shared_p, a);
     case PIR_OBSTACLE_Q_FACET:
-        return f->shared_p[0] == a && pir_shared_features_on(q, f->shared_q[0], b);
+        return f->shared_p == a && pir_shared_features_on(q, f->shared_q, b);
     case PIR_OBSTACLE_EDGES:
-        return (f->shared_p[0] == a || f->shared_p[1] == a) && (f->shared_q[0] == b || f->shared_q[1] == b);
+        return pir_framed_on_line(&o->frame.body[0], f->shared_p, a) &&
+               pir_framed_on_line(&o->frame.body[1], f->shared_q, b);
     case PIR_OBSTACLE_WALL:
         for (int end = 0; end < 2; end++) {
             const uint32_t *own = o->point[end ? f->q : f->p].of;
@@ -277,13 +278,8 @@ static bool holds_vertices(const pir_obstacle *o, const pir_obstacle_plane *f, c
 
 /* Whether two planes are one at every pose, whichever way they face. */
 static bool are_always_one(const pir_obstacle_plane *f, const pir_obstacle_plane *g) {
-    const uint32_t *p = f->shared_p, *q = f->shared_q;
-    if (f->kind != g->kind || f->kind == PIR_OBSTACLE_WALL || f->kind == PIR_OBSTACLE_BOX)
-        return false;
-    if (f->kind != PIR_OBSTACLE_EDGES)
-        return p[0] == g->shared_p[0] && q[0] == g->shared_q[0];
-    return ((p[0] == g->shared_p[0] && p[1] == g->shared_p[1]) || (p[0] == g->shared_p[1] && p[1] == g->shared_p[0])) &&
-           ((q[0] == g->shared_q[0] && q[1] == g->shared_q[1]) || (q[0] == g->shared_q[1] && q[1] == g->shared_q[0]));
+    return f->kind == g->kind && f->kind != PIR_OBSTACLE_WALL && f->kind != PIR_OBSTACLE_BOX &&
+           f->shared_p == g->shared_p && f->shared_q == g->shared_q;
 }
 
 bool pir_obstacle_is_always_on(const pir_obstacle *obstacle, uint32_t plane, uint32_t point) {

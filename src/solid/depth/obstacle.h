@@ -45,7 +45,7 @@ typedef struct pir_obstacle_plane {
     enum pir_obstacle_kind kind;
     bool turned; /* of edges: the normal is the reverse of P's edge × Q's; of walls, of side × the facet's normal */
     bool tied;   /* of facets: another vertex may be as high, so that it may be more than a copy of the facet */
-    uint32_t shared_p[2], shared_q[2]; /* the plane or the vertex, or the two ends, by their numbers in the bodies */
+    uint32_t shared_p, shared_q; /* the plane, the vertex or the line, by their numbers in the bodies */
 } pir_obstacle_plane;
 
 /* A point: the sum of a vertex of A' and one of B, what P is moved by, the nearest point to that on a plane or on the

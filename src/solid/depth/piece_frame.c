@@ -21,7 +21,21 @@ static bool reserve(pir_framed_body *body, const pir_compound *c, const pir_allo
     body->along = (double(*)[3])PIR_NEW(a, double, 3 * edges);
     body->own_along = (double(*)[3])PIR_NEW(a, double, 3 * edges);
     body->box = PIR_NEW(a, pir_space_box, c->count);
-    return body->edge && body->vertex && body->normal && body->height && body->along && body->own_along && body->box;
+    body->line = (uint32_t(*)[2])PIR_NEW(a, uint32_t, 2 * edges);
+    return body->line && body->edge && body->vertex && body->normal && body->height && body->along && body->own_along &&
+           body->box;
+}
+
+/* The line of an edge: one that both of its ends are on, or a new one. */
+static uint32_t line_of(pir_framed_body *body, const pir_framed_edge *edge) {
+    const pir_shared_features *shared = &body->shared;
+    const uint32_t a = shared->vertex[edge->origin], b = shared->vertex[edge->target];
+    for (uint32_t line = 0; line < body->lines; line++)
+        if (pir_framed_on_line(body, line, a) && pir_framed_on_line(body, line, b))
+            return line;
+    body->line[body->lines][0] = shared->plane[edge->left];
+    body->line[body->lines][1] = shared->plane[edge->right];
+    return body->lines++;
 }
 
 static void fill_edges(pir_framed_body *body, uint32_t i) {
@@ -30,9 +44,11 @@ static void fill_edges(pir_framed_body *body, uint32_t i) {
     for (uint32_t e = 0; e < piece->edge_count; e++) {
         const uint32_t half = piece->edge_half[e], at = body->edge_start[i] + e;
         const pir_vec3 along = piece->direction[half];
-        body->edge[at] = (pir_framed_edge){
-            c->face_start[i] + piece->arc_ends[e].from, c->face_start[i] + piece->arc_ends[e].to,
-            c->vertex_start[i] + piece->origin[half], c->vertex_start[i] + piece->target[half], false};
+        body->edge[at] = (pir_framed_edge){.left = c->face_start[i] + piece->arc_ends[e].from,
+                                           .right = c->face_start[i] + piece->arc_ends[e].to,
+                                           .origin = c->vertex_start[i] + piece->origin[half],
+                                           .target = c->vertex_start[i] + piece->target[half]};
+        body->edge[at].line = line_of(body, &body->edge[at]);
         body->edge[at].inner = pir_shared_features_inner_edge(&body->shared, body->shared.vertex[body->edge[at].origin],
                                                               body->shared.vertex[body->edge[at].target]);
         body->own_along[at][0] = along.x;
@@ -53,6 +69,7 @@ static void finish_body(pir_framed_body *body, const pir_allocator *a) {
     PIR_FREE(a, (double *)body->along, 3 * edges);
     PIR_FREE(a, (double *)body->own_along, 3 * edges);
     PIR_FREE(a, body->box, c->count);
+    PIR_FREE(a, (uint32_t *)body->line, 2 * edges);
     pir_shared_features_finish(&body->shared, c, a);
     PIR_FREE(a, body->edge_start, (size_t)c->count + 1);
 }

@@ -19,9 +19,9 @@
 #include "exact/rotation.h"
 #include "solid/depth/shared_features.h"
 
-/* An edge of a piece: its facets and its ends, by their numbers in the body. */
+/* An edge of a piece: its facets, its ends and its line, by their numbers in the body. */
 typedef struct pir_framed_edge {
-    uint32_t left, right, origin, target;
+    uint32_t left, right, origin, target, line;
     bool inner; /* see shared_features.h */
 } pir_framed_edge;
 
@@ -33,7 +33,8 @@ typedef struct pir_framed_body {
     double (*vertex)[3], (*normal)[3], (*along)[3], *height; /* of this pose */
     double (*own_along)[3];                                  /* in the frame of the body */
     pir_shared_features shared;
-    pir_space_box *box, whole; /* of each piece, rounded outwards, and of all */
+    uint32_t (*line)[2], lines; /* the shared planes that meet in each line of edges */
+    pir_space_box *box, whole;  /* of each piece, rounded outwards, and of all */
 } pir_framed_body;
 
 typedef struct pir_piece_frame {
@@ -44,6 +45,12 @@ typedef struct pir_piece_frame {
     pir_vec3 translation[2]; /* of P and of Q */
     double t[3];             /* what P is moved by, as Q sees it; within 2^-47 */
 } pir_piece_frame;
+
+/* Whether a shared vertex lies on a line of edges. */
+static inline bool pir_framed_on_line(const pir_framed_body *body, uint32_t line, uint32_t vertex) {
+    return pir_shared_features_on(&body->shared, body->line[line][0], vertex) &&
+           pir_shared_features_on(&body->shared, body->line[line][1], vertex);
+}
 
 /* False when out of memory. Both compounds outlive it. */
 bool pir_piece_frame_init(pir_piece_frame *frame, const pir_compound *p, const pir_compound *q,
