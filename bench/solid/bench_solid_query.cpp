@@ -222,6 +222,7 @@ class Turning {
 
 struct DepthRow {
     const char *name, *p, *q;
+    uint32_t frames;
 };
 
 void run_depth(FILE *csv, const DepthRow &row, uint32_t steps, uint32_t count) {
@@ -264,16 +265,16 @@ void run_depth(FILE *csv, const DepthRow &row, uint32_t steps, uint32_t count) {
 }
 
 void run_depths(const results &where) {
-    static const DepthRow rows[] = {{"two L-shaped extrusions", "ell", "ell"},
-                                    {"clamp and frame", "clamp", "frame"},
-                                    {"gear8 and star5", "gear8", "star5"},
-                                    {"mushroom and cup", "mushroom", "cup"}};
+    static const DepthRow rows[] = {{"two L-shaped extrusions", "ell", "ell", 2000},
+                                    {"clamp and frame", "clamp", "frame", 2000},
+                                    {"gear8 and star5", "gear8", "star5", 1000},
+                                    {"mushroom and cup", "mushroom", "cup", 50}};
     FILE *csv = results_open(&where, "solid_depth.csv");
     std::fprintf(csv, "bodies,steps,frames,depth_us,depth_mean_us,depth_p99_us,fcl_depth_us,fcl_depth_mean_us,"
                       "fcl_off_mean,fcl_off_most\n");
     for (const DepthRow &row : rows)
         for (const uint32_t steps : {500u, 5000u})
-            run_depth(csv, row, steps, results_count(2000));
+            run_depth(csv, row, steps, results_count(row.frames));
     results_close(csv, "solid_depth.csv");
 }
 

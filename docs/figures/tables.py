@@ -328,7 +328,16 @@ def solid_query(r):
     return markdown(["bodies", ">state", ">FCL", ">distance", ">FCL", ">states that FCL has otherwise"], rows)
 
 
+def solid_depth(r):
+    rows = []
+    for row in r.solid_depth.rows:
+        off = [f"{two(100 * float(row[f'fcl_off_{what}']))} %" for what in ("mean", "most")]
+        rows.append([row["bodies"], count(row["steps"]), *(two(float(row[f"depth{what}_us"])) for what in
+                     ("", "_mean", "_p99")), two(float(row["fcl_depth_us"])), " / ".join(off)])
+    return markdown(["bodies", ">steps a turn", ">median", ">mean", ">p99", ">FCL", ">FCL is off by"], rows)
+
+
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
     scene_terrain, mesh_octrees, mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids,
-    solid_query)}
+    solid_query, solid_depth)}
