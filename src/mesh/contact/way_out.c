@@ -284,6 +284,9 @@ void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out
         return;
     const double by = (nearest->near.distance - radius - step) / pir_length(nearest->near.n);
     const pir_vec3 t = pir_contact_place_by(job, pir_vec_sub(out->way, pir_vec_scale(nearest->near.n, by)));
+    // what P has left may be what it is behind of: then the nearest one is no part of its way
+    if (pir_length(pir_vec_sub(t, job->input->pose.translation)) >= pir_length(out->way))
+        return;
     const bool meets = pir_contact_look(job, t);
     nearest = pir_contact_nearest_of(job);
     if (meets || !nearest || nearest->near.distance < radius) {

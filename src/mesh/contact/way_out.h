@@ -36,7 +36,7 @@ void pir_contact_prove(pir_contact_job *job, pir_vec3 t, uint32_t index);
 /*
  * Ends a way, whose end was looked at, a step off the triangles grown by `radius`: P goes back towards the nearest one.
  * All others are as far, so it meets none on that way either, unless there are one-sided ones that it is behind where
- * it is, and not there: then it stays. The end is looked at.
+ * it is, and not there: then it stays. It stays as well where that would make its way longer. The end is looked at.
  */
 void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out);
 
