@@ -41,4 +41,16 @@ bool pir_contact_is_behind(pir_contact_job *job, const pir_contact_place *place,
 /* By integers alone. */
 bool pir_exact_is_behind(pir_contact_job *job, const pir_contact_place *place, const pir_near_triangle *s);
 
+/*
+ * Triangles within reach of P: a contact is on those alone, and a triangle that hides it is met where P touches, which
+ * is no farther than the contact. So where P meets nothing, what is certainly farther than the margin is left out.
+ */
+
+/* Whether two planes tell that P at t is farther than `far` from a triangle: across the triangle's own normal, and
+ * across the way from its rim to the middle of P. */
+bool pir_contact_is_beyond(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, double far);
+
+/* Leaves the triangles that are within `far` of P, as far as doubles told where it was looked at; in their order. */
+void pir_contact_keep_within(pir_contact_job *job, double far);
+
 #endif

@@ -8,7 +8,6 @@
 #include "mesh/contact/contact_facets.h"
 #include "mesh/contact/contact_id.h"
 #include "mesh/contact/rounded_out.h"
-#include "mesh/contact/within.h"
 
 /* Points of a normal. */
 #define MOST_POINTS 4

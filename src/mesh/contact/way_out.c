@@ -8,7 +8,6 @@
 #include "mesh/contact/way_out.h"
 
 #include "mesh/contact/contact_facets.h"
-#include "mesh/contact/within.h"
 
 /* Ways tried from one place, and places. */
 #define MOST_WAYS   48
