@@ -400,6 +400,42 @@ static void normals_are_true_however_near_a_point_is(void **state) {
     }
 }
 
+/* A segment over the diagonal of a square of two triangles that an ulp parts: each has a contact of its own there. */
+static void an_ulp_between_two_triangles_makes_two_normals(void **state) {
+    (void)state;
+    const double less = -0x1.fffffffffffffp+0, more = 0x1.0000000000001p+1, off = 0x1p-53;
+    const pir_vec3 corner[6] = {{less, -2, off}, {more, less, 0},   {2, 2, 0},
+                                {less, less, 0}, {more, more, off}, {-2, more, 0}};
+    static const uint32_t triangle[6] = {0, 1, 2, 3, 4, 5};
+    const pir_vec3 end[2] = {{-0.5, -0.5, 0}, {0.5, -0.5, 0}};
+    const pir_trimesh_arrays arrays = {
+        .vertices = corner, .vertex_count = 6, .triangles = triangle, .triangle_count = 2};
+    pir_trimesh *mesh;
+    pir_polytope *body;
+    pir_workspace *workspace;
+    assert_int_equal(pir_trimesh_create(&arrays, NULL, NULL, &mesh), PIR_OK);
+    assert_int_equal(pir_polytope_create(end, 2, NULL, &body), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    pir_surface_contact contacts[16];
+    pir_surface_contact_result r;
+    input.pose = (pir_pose){{1, 1, 1, 1}, {0.875, 1.375, 0.50000000100000008}};
+    input.margin = 2;
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    assert_int_equal(pir_surface_contacts(body, workspace, &input, 16, contacts, &r), PIR_OK);
+    bool level = false, tilted = false;
+    for (size_t i = 0; i < r.contacts; i++) {
+        level |= fabs(contacts[i].normal.x) < 1e-12;
+        tilted |= fabs(contacts[i].normal.x + 3.12250209e-8) < 1e-12 && contacts[i].triangle == 0;
+    }
+    assert_true(r.state == PIR_OUTSIDE && level && tilted);
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(body);
+    pir_trimesh_release(mesh);
+}
+
 /* A cube flush with the wall of a step, and less than an ulp of its height deep in the uneven floor before it. */
 static void what_is_told_as_the_shortest_way_is_no_longer(void **state) {
     (void)state;
@@ -852,6 +888,7 @@ int main(void) {
         cmocka_unit_test(the_deepest_contacts_come_first_and_are_kept),
         cmocka_unit_test(a_segment_nearly_along_a_side_touches),
         cmocka_unit_test(normals_are_true_however_near_a_point_is),
+        cmocka_unit_test(an_ulp_between_two_triangles_makes_two_normals),
         cmocka_unit_test(what_is_told_as_the_shortest_way_is_no_longer),
         cmocka_unit_test(triangles_all_through_one_point_end_in_bounded_time),
     };

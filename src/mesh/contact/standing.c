@@ -42,6 +42,7 @@ static bool is_before(void *context, uint32_t a, uint32_t b) {
 static uint32_t list_near(pir_contact_job *job, const pir_way_out *out) {
     const double radius = job->input->radius, margin = job->input->margin, far = pir_length(out->way) + radius;
     uint32_t count = 0;
+    pir_contact_prove_all(job, out->t);
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         pir_near_triangle *s = &job->triangle[i];
         if (!s->counts || s->near.meets || s->near.distance - far > margin)
@@ -61,12 +62,8 @@ static pir_vec3 normal_of(const pir_near_triangle *s) {
 /* Adds the contact of a triangle where it stands and has a normal of its own. */
 static void judge(pir_contact_job *job, const pir_way_out *out, uint32_t index, pir_standings *standings) {
     pir_near_triangle *s = &job->triangle[index];
-    if (has_normal(standings, normal_of(s)))
-        return;
-    const bool was_proven = s->near.proven;
-    pir_contact_prove(job, out->t, index);
     const pir_vec3 normal = normal_of(s);
-    if (!was_proven && has_normal(standings, normal))
+    if (has_normal(standings, normal))
         return;
     if (!pir_contact_stands(job, out->t, index)) {
         job->counts.ghosts++;

@@ -294,7 +294,6 @@ static void set_apart(pir_contact_job *job, pir_surface_contact_result *result) 
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     if (!s || s->near.distance - job->input->radius > job->input->margin)
         return;
-    pir_contact_prove(job, job->input->pose.translation, (uint32_t)(s - job->triangle));
     const pir_standing contact = {.gap = s->near.distance - job->input->radius,
                                   .normal = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)),
                                   .point = s->near.point};
@@ -342,6 +341,7 @@ static void set_way(const struct room *room, pir_surface_contact_result *result)
  */
 static void set_own_contact(struct room *room, pir_surface_contact_result *result) {
     pir_contact_job *job = &room->job;
+    pir_contact_prove_all(job, room->out.t);
     const pir_near_triangle *s = pir_contact_nearest_of(job);
     result->way_out = room->out.way;
     if (!s) {
@@ -351,7 +351,6 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
             set_way(room, result);
         return;
     }
-    pir_contact_prove(job, room->out.t, (uint32_t)(s - job->triangle));
     const pir_vec3 n = pir_vec_scale(s->near.n, 1 / pir_length(s->near.n)), t = job->input->pose.translation;
     const double gap = s->near.distance - job->input->radius;
     const bool touches = gap <= 2 * pir_contact_step(job); // else P is held off by what it is behind of
@@ -402,6 +401,8 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
                                          .is_out = true,
                                          .is_shortest = true};
     const bool meets = pir_contact_look_first(job);
+    if (!meets)
+        pir_contact_prove_all(job, job->input->pose.translation);
     result.state = state_of(job, meets);
     if (!meets)
         set_apart(job, &result);

@@ -125,6 +125,8 @@ static bool look_at(pir_contact_job *job, const pir_contact_place *place, pir_ne
     if (behind && (radius == 0 || pir_contact_told_behind(job, place->at, s, 0, radius) == PIR_TOLD_YES))
         return false;
     pir_contact_look_near(job, place, s, &s->near);
+    if (behind && !s->near.proven)
+        pir_contact_nearest(job, place, s, &s->near);
     return !behind || s->near.meets || s->near.distance < radius;
 }
 
@@ -250,7 +252,13 @@ static bool try_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways, b
             ways->missed = fmin(ways->missed, way->depth);
             continue;
         }
-        if (!is_clear(job, to, way->n, &met) || !is_in_front(job, to))
+        if (!is_clear(job, to, way->n, &met)) {
+            // what only touches does not say that the way is none: with other roundings P may pass by
+            if (!pir_contact_overlaps(job, to, &job->triangle[met], true))
+                ways->missed = fmin(ways->missed, way->depth);
+            continue;
+        }
+        if (!is_in_front(job, to))
             continue;
         *ret_way = *way;
         *ret_to = is_clear(job, whole, way->n, &met) && is_in_front(job, whole) ? whole : to;
@@ -269,11 +277,13 @@ const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job) {
     return nearest;
 }
 
-void pir_contact_prove(pir_contact_job *job, pir_vec3 t, uint32_t index) {
+void pir_contact_prove_all(pir_contact_job *job, pir_vec3 t) {
     const pir_contact_place place = pir_place_at(t);
-    pir_near_triangle *s = &job->triangle[index];
-    if (!s->near.proven)
-        pir_contact_nearest(job, &place, s, &s->near);
+    for (uint32_t i = 0; i < job->triangle_count; i++) {
+        pir_near_triangle *s = &job->triangle[i];
+        if (s->counts && !s->near.meets && !s->near.proven)
+            pir_contact_nearest(job, &place, s, &s->near);
+    }
 }
 
 void pir_contact_pull_back(pir_contact_job *job, double radius, pir_way_out *out) {
@@ -319,7 +329,7 @@ static void leave_place(pir_contact_job *job, struct step_out *by, pir_way_out *
         out->is_out = try_ways(job, out->t, &by->ways, true, &way, &to);
     }
     // no way through one facet is shorter than a loose one either, where all of them were tried
-    out->is_shortest = out->is_out && way.depth < missed;
+    out->is_shortest = out->is_out && way.depth <= missed;
     out->depth = out->is_out ? way.depth : HUGE_VAL;
     by->goes_on = out->is_out || longest.depth >= 0;
     if (out->is_out)

@@ -30,8 +30,9 @@ double pir_contact_step(const pir_contact_job *job);
 
 /* The nearest triangle that counts and is not met, at the place t that was looked at; NULL for none. */
 const pir_near_triangle *pir_contact_nearest_of(const pir_contact_job *job);
-/* Makes sure that a triangle's nearest points at t, which was looked at, are proven. */
-void pir_contact_prove(pir_contact_job *job, pir_vec3 t, uint32_t index);
+/* Makes sure that the nearest points at t, which was looked at, of all that count and are not met are proven: doubles
+ * that prove nothing may be far off in distance, and by a root in direction. */
+void pir_contact_prove_all(pir_contact_job *job, pir_vec3 t);
 
 /*
  * Ends a way, whose end was looked at, a step off the triangles grown by `radius`: P goes back towards the nearest one.
