@@ -6,7 +6,7 @@
  * inside, found by looking at all of them, in exact numbers. Bodies at any rotations and at aligned ones: the boundary
  * of the exact difference of the open bodies, looked at facet by facet. Every answer's place is where it says, on a
  * facet of the pieces that it names, and the bodies touch there at the points that it gives. A query that goes
- * through a motion has the bits of new ones.
+ * through a motion, or through any history of poses, has the bits of new ones.
  *
  * PIR_TEST_CASES sets how many pairs of unions, or rotations, there are.
  */
@@ -499,6 +499,77 @@ static void a_kept_query_allocates_nothing_and_has_the_bits_of_a_new_one(void **
     assert_true(memory.blocks == 0 && !memory.wrong_size);
 }
 
+/* --- histories --- */
+
+/* The next pose of a history: the body rests, slides, turns by a little about its middle or back again, or is
+ * elsewhere; by aligned rotations and multiples of 1/8 at times. */
+static pir_pose moved(test_random *random, pir_pose pose, pir_pose before) {
+    const double step = ldexp(1, test_random_between(random, -40, -3));
+    const pir_vec3 way = test_random_direction(random), axis = test_random_direction(random);
+    const pir_vec3 slide = {step * way.x, step * way.y, step * way.z},
+                   turn = {step * axis.x, step * axis.y, step * axis.z};
+    const pir_vec3 none = {0, 0, 0};
+    switch (test_random_below(random, 16)) {
+    case 0:
+        return pose;
+    case 1:
+        return before;
+    case 2:
+        pose.rotation = (pir_quat){0, 0, test_random_below(random, 2) == 0, 1};
+        pose.translation = (pir_vec3){rint(8 * pose.translation.x) / 8, rint(8 * pose.translation.y) / 8,
+                                      rint(8 * pose.translation.z) / 8};
+        return pose;
+    case 3:
+        pose.rotation = (pir_quat){axis.x, axis.y, axis.z, test_random_unit(random)};
+        return pose;
+    case 4:
+    case 5:
+        return pir_pose_integrate(pose, slide, none, 1);
+    case 6:
+    case 7:
+        return pir_pose_integrate(pose, none, turn, 1);
+    default:
+        return pir_pose_integrate(pose, slide, (pir_vec3){0.01 * axis.x, 0.01 * axis.y, 0.01 * axis.z}, 1);
+    }
+}
+
+/* Whatever a query was asked before, its answers have the bits of a new one. */
+static void histories_leave_no_trace(void **state) {
+    (void)state;
+    static const char *const names[][2] = {{"ell", "ell"}, {"clamp", "frame"}, {"star5", "ell"}, {"gear8", "star5"}};
+    for (uint64_t i = 0; i < solid_cases(4); i++) {
+        test_random random = test_random_case("histories", i);
+        pir_solid *p = solid_model_new(names[i % 4][0], i % 4 == 2 ? 2 : 1), *q = solid_model_new(names[i % 4][1], 1);
+        struct scene kept = scene_of(p, q), fresh = scene_of(p, q);
+        const pir_vec3 at = test_random_direction(&random);
+        pir_pair_input input = pir_pair_input_default();
+        input.pose_p = (pir_pose){{0, 0, 0, 1}, {at.x / 4 * kept.size, at.y / 8 * kept.size, at.z / 8 * kept.size}};
+        pir_pose before = input.pose_p;
+        for (int frame = 0; frame < 60; frame++) {
+            const pir_pose next = moved(&random, input.pose_p, before);
+            pir_solid_depth one = {0}, other = {0};
+            before = input.pose_p;
+            input.pose_p = next;
+            pir_solid_query_destroy(fresh.query);
+            assert_int_equal(pir_solid_query_create(fresh.pieces[0], fresh.pieces[1], NULL, &fresh.query), PIR_OK);
+            assert_int_equal(pir_solid_query_depth(kept.query, kept.workspace, &input, &one), PIR_OK);
+            assert_int_equal(pir_solid_query_depth(fresh.query, fresh.workspace, &input, &other), PIR_OK);
+            if (one.state != other.state || !are_same(&one, &other))
+                fail_msg("case %llu, %s and %s, frame %d", (unsigned long long)i, names[i % 4][0], names[i % 4][1],
+                         frame);
+            if (test_random_below(&random, 8) == 0 && one.state == PIR_INSIDE)
+                assert_int_equal(pir_solid_query_directional_depth(kept.query, kept.workspace, &input, at, &one),
+                                 PIR_OK);
+            if (one.state != PIR_INSIDE)
+                input.pose_p.translation = (pir_vec3){0.125, 0.25, 0.0625};
+        }
+        scene_finish(&kept);
+        scene_finish(&fresh);
+        pir_solid_release(p);
+        pir_solid_release(q);
+    }
+}
+
 static void directions_that_are_none_are_refused(void **state) {
     (void)state;
     cells cube = {0};
@@ -531,6 +602,7 @@ int main(void) {
         cmocka_unit_test(ways_out_of_cubes_are_those_of_the_lattice),
         cmocka_unit_test(depths_are_those_of_the_exact_difference),
         cmocka_unit_test(a_kept_query_allocates_nothing_and_has_the_bits_of_a_new_one),
+        cmocka_unit_test(histories_leave_no_trace),
         cmocka_unit_test(directions_that_are_none_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -44,7 +44,7 @@ static void find_holding(pir_obstacle *o, uint32_t point, struct holding *holdin
         bool holds = true;
         for (int k = 0; k < 3; k++)
             holds = holds && at.x[k] > box.low[k] - at.err - 0x1p-46 && at.x[k] < box.high[k] + at.err + 0x1p-46;
-        if (holds) {
+        if (holds && !pir_obstacle_is_beyond(o, pair, at.x, at.err)) {
             const pir_obstacle_sum sum = *pir_obstacle_open(o, pair);
             add_holding(o, &sum, point, holding);
         }

@@ -4,6 +4,7 @@
 #define PIR_SOLID_DEPTH_DEPTH_SEARCH_H
 
 #include "solid/depth/free_parts.h"
+#include "solid/depth/kept_covers.h"
 
 /* A pair, the plane of a facet, a facet or a part that is still to be looked at, and no nearer than `least`. */
 typedef struct pir_depth_item {
@@ -12,16 +13,15 @@ typedef struct pir_depth_item {
     uint32_t number;
 } pir_depth_item;
 
-/* How many pairs are tried before all are. */
-#define PIR_DEPTH_COVERS 8
-
 typedef struct pir_depth_search {
     pir_obstacle obstacle;
     pir_free_parts parts;
     pir_depth_item *heap;
     uint32_t heap_count, heap_room;
-    uint32_t cover[PIR_DEPTH_COVERS],
-        cover_count; /* pairs whose sums have covered points of late, the last one first */
+    pir_covers covers;
+    pir_kept_covers kept;
+    pir_facet_key last; /* the facet of the last answer, where there is one */
+    bool has_last, coherent;
 } pir_depth_search;
 
 /* Where P is free, nearest to where it is: a point of the obstacle, and the least plane that it is on. */

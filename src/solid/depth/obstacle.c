@@ -33,6 +33,27 @@ bool pir_obstacle_grow(pir_obstacle *obstacle, void **array, uint32_t *room, uin
     return true;
 }
 
+/* Room for the slopes of any sum. False when out of memory. */
+static bool make_slopes(pir_obstacle *o) {
+    uint32_t faces[2] = {0}, edges[2] = {0};
+    for (int side = 0; side < 2; side++) {
+        const pir_framed_body *body = &o->frame.body[side];
+        for (uint32_t i = 0; i < body->of->count; i++) {
+            const uint32_t own_faces = body->of->face_start[i + 1] - body->of->face_start[i];
+            const uint32_t own_edges = body->edge_start[i + 1] - body->edge_start[i];
+            faces[side] = own_faces > faces[side] ? own_faces : faces[side];
+            edges[side] = own_edges > edges[side] ? own_edges : edges[side];
+        }
+    }
+    for (int side = 0; side < 2; side++) {
+        o->slope_room[side] = faces[side] * edges[1 - side];
+        o->slope[side] = PIR_NEW(&o->allocator, int8_t, o->slope_room[side]);
+        if (!o->slope[side])
+            return false;
+    }
+    return true;
+}
+
 bool pir_obstacle_init(pir_obstacle *obstacle, const pir_compound *p, const pir_compound *q,
                        const pir_allocator *allocator) {
     pir_obstacle *o = obstacle;
@@ -41,7 +62,8 @@ bool pir_obstacle_init(pir_obstacle *obstacle, const pir_compound *p, const pir_
         mpz_init(o->t[k]);
     o->sum = PIR_ZEROED(allocator, pir_obstacle_sum, o->pairs);
     o->open = PIR_NEW(allocator, uint32_t, o->pairs);
-    return o->sum && o->open && pir_piece_frame_init(&o->frame, p, q, allocator);
+    o->beyond = (double(*)[3])PIR_ZEROED(allocator, double, 3 * (size_t)o->pairs);
+    return o->sum && o->open && o->beyond && pir_piece_frame_init(&o->frame, p, q, allocator) && make_slopes(o);
 }
 
 void pir_obstacle_finish(pir_obstacle *obstacle) {
@@ -55,6 +77,9 @@ void pir_obstacle_finish(pir_obstacle *obstacle) {
     PIR_FREE(&o->allocator, o->point, o->point_room);
     PIR_FREE(&o->allocator, o->sum, o->pairs);
     PIR_FREE(&o->allocator, o->open, o->pairs);
+    PIR_FREE(&o->allocator, (double *)o->beyond, 3 * (size_t)o->pairs);
+    for (int side = 0; side < 2; side++)
+        PIR_FREE(&o->allocator, o->slope[side], o->slope_room[side]);
     pir_piece_frame_finish(&o->frame, &o->allocator);
 }
 
@@ -106,21 +131,35 @@ static void add_facets(pir_obstacle *o, uint32_t pair, int side, uint32_t i, uin
     }
 }
 
-/* The sign of a normal of one body along an edge of the other, by their numbers in the bodies. */
-static int slope(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t face, uint32_t edge) {
+/* The signs of the normals of a piece's faces along the edges of a piece of the other body, by doubles. */
+static void fill_slopes(pir_obstacle *o, int side, const uint32_t piece[2]) {
     const pir_framed_body *own = &o->frame.body[side], *other = &o->frame.body[1 - side];
-    const double s = dot(own->normal[face], other->along[edge]);
-    if (fabs(s) > 0x1p-45)
-        return s > 0 ? 1 : -1;
-    return pir_obstacle_exact_slope(o, side, piece, face - own->of->face_start[piece[side]],
-                                    edge - other->edge_start[piece[1 - side]]);
+    const uint32_t first = other->edge_start[piece[1 - side]], end = other->edge_start[piece[1 - side] + 1];
+    int8_t *to = o->slope[side];
+    for (uint32_t f = own->of->face_start[piece[side]]; f < own->of->face_start[piece[side] + 1]; f++)
+        for (uint32_t e = first; e < end; e++) {
+            const double s = dot(own->normal[f], other->along[e]);
+            *to++ = (int8_t)(s > 0x1p-45 ? 1 : s < -0x1p-45 ? -1 : 2);
+        }
+}
+
+/* The sign of a normal of one body along an edge of the other, by their numbers in the pieces. */
+static inline int slope(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t face, uint32_t edge) {
+    const pir_framed_body *other = &o->frame.body[1 - side];
+    const uint32_t edges = other->edge_start[piece[1 - side] + 1] - other->edge_start[piece[1 - side]];
+    int8_t *known = &o->slope[side][face * edges + edge];
+    if (*known == 2)
+        *known = (int8_t)pir_obstacle_exact_slope(o, side, piece, face, edge);
+    return *known;
 }
 
 /* The sign with which the arc of an edge passes through the great circle of an edge of the other; 0: it does not. */
-static int passes(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t own, uint32_t other) {
-    const pir_framed_edge *edge = &o->frame.body[side].edge[own];
-    const int right = slope(o, side, piece, edge->right, other);
-    return right != 0 && slope(o, side, piece, edge->left, other) == -right ? right : 0;
+static inline int passes(pir_obstacle *o, int side, const uint32_t piece[2], uint32_t own, uint32_t other) {
+    const pir_framed_body *body = &o->frame.body[side];
+    const pir_framed_edge *edge = &body->edge[body->edge_start[piece[side]] + own];
+    const uint32_t first = body->of->face_start[piece[side]];
+    const int right = slope(o, side, piece, edge->right - first, other);
+    return right != 0 && slope(o, side, piece, edge->left - first, other) == -right ? right : 0;
 }
 
 /* The plane of two edges whose arcs cross. Directions are within 2^-47 and 2^-50, so the unit normal is within
@@ -148,28 +187,56 @@ static void add_crossing(pir_obstacle *o, const uint32_t piece[2], uint32_t pair
 
 static void add_crossings(pir_obstacle *o, uint32_t pair, const uint32_t piece[2]) {
     const pir_framed_body *p = &o->frame.body[0], *q = &o->frame.body[1];
-    for (uint32_t e = p->edge_start[piece[0]]; e < p->edge_start[piece[0] + 1]; e++)
-        for (uint32_t g = q->edge_start[piece[1]]; g < q->edge_start[piece[1] + 1]; g++) {
+    const uint32_t first[2] = {p->edge_start[piece[0]], q->edge_start[piece[1]]};
+    const uint32_t edges[2] = {p->edge_start[piece[0] + 1] - first[0], q->edge_start[piece[1] + 1] - first[1]};
+    fill_slopes(o, 0, piece);
+    fill_slopes(o, 1, piece);
+    for (uint32_t e = 0; e < edges[0]; e++)
+        for (uint32_t g = 0; g < edges[1]; g++) {
             const int along = passes(o, 0, piece, e, g);
             // the two arcs meet in one point, not in opposite ones, when they pass opposite ways
             if (along != 0 && passes(o, 1, piece, g, e) == -along)
-                add_crossing(o, piece, pair, e, g, along > 0);
+                add_crossing(o, piece, pair, first[0] + e, first[1] + g, along > 0);
         }
 }
 
-const pir_obstacle_sum *pir_obstacle_open(pir_obstacle *obstacle, uint32_t pair) {
+pir_obstacle_sum *pir_obstacle_open(pir_obstacle *obstacle, uint32_t pair) {
     pir_obstacle *o = obstacle;
     pir_obstacle_sum *sum = &o->sum[pair];
     if (sum->count > 0)
         return sum;
     const uint32_t of_q = o->frame.body[1].of->count, piece[2] = {pair / of_q, pair % of_q};
-    sum->first = o->plane_count;
+    sum->first = sum->outer = o->plane_count;
     add_facets(o, pair, 0, piece[0], piece[1]);
     add_facets(o, pair, 1, piece[1], piece[0]);
     add_crossings(o, pair, piece);
     sum->count = o->plane_count - sum->first;
     o->open[o->opened++] = pair;
     return sum;
+}
+
+void pir_obstacle_note_beyond(pir_obstacle *obstacle, uint32_t plane) {
+    const pir_obstacle_plane *f = &obstacle->plane[plane];
+    for (int k = 0; k < 3; k++)
+        obstacle->beyond[f->pair][k] = f->n[k];
+}
+
+/* How high a piece is along a unit vector. */
+static double height_along(const pir_framed_body *body, uint32_t piece, const double n[3]) {
+    double most = -HUGE_VAL;
+    for (uint32_t v = body->of->vertex_start[piece]; v < body->of->vertex_start[piece + 1]; v++) {
+        const double height = dot(n, body->vertex[v]);
+        most = height > most ? height : most;
+    }
+    return most;
+}
+
+bool pir_obstacle_is_beyond(const pir_obstacle *obstacle, uint32_t pair, const double x[3], double err) {
+    const pir_framed_body *p = &obstacle->frame.body[0], *q = &obstacle->frame.body[1];
+    const double *n = obstacle->beyond[pair];
+    // without a normal both sides are 0
+    return dot(n, x) >
+           height_along(p, pair / q->of->count, n) + height_along(q, pair % q->of->count, n) + err + 0x1p-44;
 }
 
 pir_space_box pir_obstacle_box(const pir_obstacle *obstacle, uint32_t pair) {

@@ -69,6 +69,7 @@ typedef struct pir_obstacle_point {
 /* The sum of one pair of pieces. */
 typedef struct pir_obstacle_sum {
     uint32_t first, count; /* planes; count 0 where they are not made */
+    uint32_t outer;        /* one of them, that a place was beyond of late */
 } pir_obstacle_sum;
 
 typedef struct pir_obstacle {
@@ -78,11 +79,14 @@ typedef struct pir_obstacle {
     pir_obstacle_sum *sum; /* per pair */
     uint32_t pairs, opened;
     uint32_t *open;            /* the pairs whose planes are made */
+    double (*beyond)[3];       /* per pair: the normal of a plane that a point was beyond of late, or 0 */
     pir_obstacle_plane *plane; /* those of the box first */
     pir_obstacle_point *point; /* the place of P first */
     mpz_t *number;
     uint32_t plane_count, plane_room, point_count, point_room, number_count, number_room, number_made;
-    mpz_t t[24]; /* scratch of exact calls */
+    mpz_t t[24];      /* scratch of exact calls */
+    int8_t *slope[2]; /* of the sum that is opened: P's faces along Q's edges, and the reverse; 2 where not known */
+    uint32_t slope_room[2];
     bool has_way;
     double way[3], way_err; /* unit, as Q sees it */
     pir_vec3 world_way;
@@ -98,7 +102,14 @@ void pir_obstacle_finish(pir_obstacle *obstacle);
 pir_status pir_obstacle_set(pir_obstacle *obstacle, const pir_pair_input *input, const pir_vec3 *way);
 
 /* The planes of a pair's sum. */
-const pir_obstacle_sum *pir_obstacle_open(pir_obstacle *obstacle, uint32_t pair);
+pir_obstacle_sum *pir_obstacle_open(pir_obstacle *obstacle, uint32_t pair);
+
+/* Notes that a point was beyond a plane of a sum: points are likely to be so at the next pose, and for those that are
+ * the sum need not be opened. */
+void pir_obstacle_note_beyond(pir_obstacle *obstacle, uint32_t plane);
+
+/* Whether a place, within `err`, is certainly beyond all of a sum along the normal that was noted. */
+bool pir_obstacle_is_beyond(const pir_obstacle *obstacle, uint32_t pair, const double x[3], double err);
 
 /* The box that holds the sum of a pair. */
 pir_space_box pir_obstacle_box(const pir_obstacle *obstacle, uint32_t pair);
