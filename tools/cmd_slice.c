@@ -35,6 +35,7 @@ struct slicing {
     struct progress bar;
     pir_cspace_progress progress; /* the last one told */
     bool has_bar;
+    bool has_sections, told; /* whether sections have been written, and why not has been said */
 };
 
 /* --- what is asked for --- */
@@ -99,6 +100,19 @@ static bool on_progress(void *context, const pir_cspace_progress *progress) {
     return !interrupt_asked();
 }
 
+/* Adds the sections, where they were asked for, to the file at a path. */
+static bool add_sections(void *context, const char *path) {
+    struct slicing *run = context;
+#if PIR_HAVE_HDF5
+    run->has_sections = !run->planar.given || planar_file_write(path, args_value(run->args, "-o"), &run->planar);
+#else
+    (void)path;
+    run->has_sections = !run->planar.given;
+#endif
+    run->told = !run->has_sections;
+    return run->has_sections;
+}
+
 static bool read_request(const struct args *args, struct slicing *run) {
     uint64_t threads = 1, per_unit = 0;
     run->options = pir_cspace_options_default();
@@ -115,6 +129,7 @@ static bool read_request(const struct args *args, struct slicing *run) {
     run->options.planes = args_has(args, "--planes");
     run->options.vertices = args_has(args, "--vertices");
     run->options.progress = on_progress;
+    run->options.complete = add_sections;
     run->options.context = run;
     run->options.part = run->ranks.number;
     run->options.claim = run->ranks.count > 1 ? on_claim : NULL;
@@ -226,15 +241,6 @@ static pir_cspace_job *create_job(struct slicing *run) {
     return job;
 }
 
-/* Adds the sections, where they were asked for. */
-static bool add_sections(const struct slicing *run) {
-#if PIR_HAVE_HDF5
-    return !run->planar.given || planar_file_write(args_value(run->args, "-o"), &run->planar);
-#else
-    return !run->planar.given;
-#endif
-}
-
 /* Runs the job to its end, or to that of the run. False after a complaint. */
 static bool run_job(struct slicing *run, pir_cspace_job *job) {
     pir_report report = {0};
@@ -253,7 +259,7 @@ static bool run_job(struct slicing *run, pir_cspace_job *job) {
     }
     if (status == PIR_OK && run->ranks.number == 0)
         status = pir_cspace_job_assemble(job, &report);
-    if (status != PIR_OK)
+    if (status != PIR_OK && !run->told)
         complain_status("slice", status, &report);
     return status == PIR_OK;
 }
@@ -263,7 +269,8 @@ static int make_slices(struct slicing *run) {
     int64_t start = clock_now();
     interrupt_put_off(true);
     pir_cspace_job *job = create_job(run);
-    bool done = job && run_job(run, job) && (run->ranks.number > 0 || add_sections(run));
+    bool done = job && run_job(run, job) &&
+                (run->ranks.number > 0 || run->has_sections || add_sections(run, args_value(run->args, "-o")));
     pir_cspace_job_destroy(job);
     interrupt_put_off(false);
     if (done && run->ranks.number == 0)

@@ -333,6 +333,15 @@ static bool is_down(struct output_file *file) {
     return good && file->sink->error == 0;
 }
 
+bool output_lead_to(struct output_file *file, const char *path) {
+    char *target = follow_links(path);
+    if (!target)
+        return !complain_file(path, "write");
+    free(file->target);
+    file->target = target;
+    return true;
+}
+
 bool output_commit(struct output_file *file) {
     bool good = is_down(file);
     errno = file->sink->error;

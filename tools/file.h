@@ -28,6 +28,9 @@ struct output_file {
 /* `path` must outlive the file. */
 bool output_open(struct output_file *file, const char *path);
 
+/* Lets a file that has been opened under one name take the place of another in its folder. False after a complaint. */
+bool output_lead_to(struct output_file *file, const char *path);
+
 /* Closes the stream and gives the file its name. */
 bool output_commit(struct output_file *file);
 

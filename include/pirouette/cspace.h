@@ -76,7 +76,13 @@ typedef struct pir_cspace_options {
     uint64_t (*claim)(void *context);
     /** Called now and then, one thread at a time; false ends the run after the units in work. May be NULL. */
     bool (*progress)(void *context, const pir_cspace_progress *progress);
-    void *context; /**< for claim and progress */
+    void *context; /**< for claim, progress and complete */
+    /**
+     * Called by pir_cspace_job_assemble with the path of the file, once it is whole and sealed and before it takes the
+     * place of an older one: what is added to it then (pir_cspace_seal) appears with it. Not called where the file of
+     * the same job is there already. False ends the call with PIR_ERR_FILE, and the older file stays. May be NULL.
+     */
+    bool (*complete)(void *context, const char *path);
 } pir_cspace_options;
 
 /**

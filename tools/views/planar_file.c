@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* The file is checked and copied, the copy gets the group, a seal and then the file's name. */
+/* The file is checked and copied, the copy gets the group, a seal and then the file's name. It is opened as one that
+ * will be `name`: a run that is killed leaves a file that the next run on that name removes. */
 #include "planar_file.h"
 
 #include "../file.h"
@@ -14,12 +15,12 @@ struct planar_group {
     struct column count, corner;
 };
 
-/* Copies the file `path` to an open stream. */
-static bool copy_file(const char *path, struct output_file *out) {
+/* Copies the file `path`, which is told as `name`, to an open stream. */
+static bool copy_file(const char *path, const char *name, struct output_file *out) {
     static char block[1 << 16];
     FILE *from = fopen(path, "rb");
     if (!from) {
-        complain("%s: cannot be read again", path);
+        complain("%s: cannot be read again", name);
         return false;
     }
     size_t size;
@@ -27,7 +28,7 @@ static bool copy_file(const char *path, struct output_file *out) {
     while (done && (size = fread(block, 1, sizeof block, from)) > 0)
         done = fwrite(block, 1, size, out->stream) == size;
     if (ferror(from))
-        complain("%s: cannot be read again", path);
+        complain("%s: cannot be read again", name);
     done = !ferror(from) && !output_failed(out);
     fclose(from);
     return done;
@@ -88,7 +89,7 @@ static bool ask_seal(pir_status (*ask)(const char *path, const pir_allocator *al
     return false;
 }
 
-bool planar_file_write(const char *path, const struct planar *planar) {
+bool planar_file_write(const char *path, const char *name, const struct planar *planar) {
     struct slices slices;
     struct output_file out = {0};
     struct planar_group group = {0};
@@ -97,12 +98,13 @@ bool planar_file_write(const char *path, const struct planar *planar) {
     if (!slices_open(&slices, path, 1, 1))
         return false;
     // HDF5 reads the copy as it is
-    bool copied = ask_seal(pir_cspace_check, path) && output_open(&out, path) && copy_file(path, &out);
+    bool copied = ask_seal(pir_cspace_check, path) && output_open(&out, name) && output_lead_to(&out, path) &&
+                  copy_file(path, name, &out);
     bool done = copied && group_open(&group, &out, planar) && put_sections(&group, &slices, planar, &told);
     done &= group_close(&group);
     const bool failed = copied && !told && output_failed(&out);
     if (copied && !done && !told && !failed)
-        complain("%s: HDF5 cannot add the sections", path);
+        complain("%s: HDF5 cannot add the sections", name);
     done = done && !failed && ask_seal(pir_cspace_seal, out.temporary) && output_commit(&out);
     output_discard(&out);
     slices_close(&slices);

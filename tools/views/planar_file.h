@@ -7,8 +7,8 @@
 
 /*
  * Adds the group `planar` to the file of slices `path`, which then has it or is as it was; docs/slices.md says what it
- * holds. A file that has the group gets the new one. False after a complaint.
+ * holds. A file that has the group gets the new one. False after a complaint, in which the file is called `name`.
  */
-bool planar_file_write(const char *path, const struct planar *planar);
+bool planar_file_write(const char *path, const char *name, const struct planar *planar);
 
 #endif

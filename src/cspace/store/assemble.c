@@ -291,7 +291,16 @@ static pir_status give_name(const char *path, const char *name, pir_report *repo
     return PIR_OK;
 }
 
-static pir_status assemble_as(const pir_parts *parts, const char *path, pir_report *report) {
+/* Lets the caller add to the file before it gets its name. */
+static pir_status complete(const pir_parts *parts, const pir_cspace_options *options, const char *path,
+                           pir_report *report) {
+    if (!options->complete || options->complete(options->context, path))
+        return PIR_OK;
+    return pir_fail(report, PIR_ERR_FILE, "%s: the caller could not complete it", pir_short_name(parts->file));
+}
+
+static pir_status assemble_as(const pir_parts *parts, const pir_cspace_options *options, const char *path,
+                              pir_report *report) {
     struct output out = {.parts = parts, .plan = parts->plan, .file = -1};
     out.packer = pir_packer_new(&parts->allocator);
     if (!out.packer || !pir_unit_init(&out.unit, parts->plan->slices_per_unit, &parts->allocator)) {
@@ -306,13 +315,15 @@ static pir_status assemble_as(const pir_parts *parts, const char *path, pir_repo
     pir_unit_finish(&out.unit, &parts->allocator);
     pir_packer_free(out.packer);
     if (status == PIR_OK)
+        status = complete(parts, options, path, report);
+    if (status == PIR_OK)
         status = give_name(path, parts->file, report);
     if (status != PIR_OK)
         unlink(path);
     return status;
 }
 
-pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
+pir_status pir_assemble(const pir_parts *parts, const pir_cspace_options *options, pir_report *report) {
     struct timespec now;
     size_t size = strlen(parts->file) + sizeof PIR_ASSEMBLING + 3 * sizeof(long) * 3;
     char *path = PIR_NEW(&parts->allocator, char, size);
@@ -322,7 +333,7 @@ pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
     clock_gettime(CLOCK_REALTIME, &now);
     snprintf(path, size, "%s" PIR_ASSEMBLING "-%ld-%ld%09ld", parts->file, (long)getpid(), (long)now.tv_sec,
              now.tv_nsec);
-    pir_status status = assemble_as(parts, path, report);
+    pir_status status = assemble_as(parts, options, path, report);
     PIR_FREE(&parts->allocator, path, size);
     return status;
 }

@@ -276,7 +276,7 @@ pir_status pir_cspace_job_assemble(pir_cspace_job *job, pir_report *report) {
             pir_fail(report, PIR_ERR_EMPTY, "%s: %llu of %llu units are still to be made", pir_short_name(job->file),
                      (unsigned long long)(job->plan.units - job->parts.done), (unsigned long long)job->plan.units);
     if (status == PIR_OK)
-        status = pir_assemble(&job->parts, report);
+        status = pir_assemble(&job->parts, &job->options, report);
     if (status == PIR_OK)
         status = pir_parts_remove(&job->parts, PIR_LEFT_ALL, report);
     return status;

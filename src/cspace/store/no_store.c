@@ -26,7 +26,8 @@ bool pir_unit_pack(pir_unit *unit, pir_packer *packer, const pir_allocator *allo
     return true;
 }
 
-pir_status pir_assemble(const pir_parts *parts, pir_report *report) {
+pir_status pir_assemble(const pir_parts *parts, const pir_cspace_options *options, pir_report *report) {
+    (void)options;
     return pir_fail(report, PIR_ERR_NOT_BUILT, "%s: this build has no HDF5", parts->file);
 }
 
