@@ -24,7 +24,7 @@
  *
  * One-sided triangles push to their front. A triangle that has P wholly behind it, or in its plane, does not count.
  * With a radius it counts all the same where the ball comes to it from behind, which is where P without the radius is
- * nearer to it than that. Behind others lies a solid, however thin: no contact pushes into it.
+ * nearer to it than that.
  *
  * Where P is apart from all triangles, y is where P comes to when it moves along −n by the gap: for each triangle the
  * contact is that of its nearest points. Where P meets another triangle on that way, y may also be a place beside,
@@ -138,9 +138,9 @@ typedef struct pir_surface_contact_result {
     pir_vec3 way_out; /**< a translation after which P, with its radius, meets no triangle; 0 where it meets none, and
                            where none was found */
     bool is_out; /**< whether P meets no triangle there, without a radius exactly; false where none was found nearby */
-    bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D, and meets nothing a step
-                            farther on: 2^-12 of P's size, or 2^-28 where another triangle is that near. way_out has
-                            that step, distance has not */
+    bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D that P's place is in, and
+                            meets nothing a step farther on: 2^-12 of P's size, or 2^-28 where another triangle is
+                            that near. way_out has that step, distance has not */
     size_t contacts;  /**< how many were written */
     pir_surface_contact_counts counts;
 } pir_surface_contact_result;

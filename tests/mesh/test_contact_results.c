@@ -316,6 +316,47 @@ static void walls_nearer_than_a_body_is_wide_both_push(void **state) {
     pir_trimesh_release(mesh);
 }
 
+/* A box over one facet of a tetrahedron, wherever it is moved across: it reaches over edges with 55 degrees between
+ * their facets, and meets the facet behind there. */
+static void acute_edges_hide_no_contact(void **state) {
+    (void)state;
+    static const pir_vec3 corner[4] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t triangle[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    const pir_trimesh_arrays arrays = {
+        .vertices = corner, .vertex_count = 4, .triangles = triangle, .triangle_count = 4};
+    pir_vec3 v[8];
+    pir_trimesh *mesh;
+    pir_polytope *box;
+    pir_workspace *workspace;
+    for (int i = 0; i < 8; i++)
+        v[i] = (pir_vec3){i & 1 ? 2 : 0, i & 2 ? 1 : 0, i & 4 ? 1 : 0};
+    assert_int_equal(pir_trimesh_create(&arrays, NULL, NULL, &mesh), PIR_OK);
+    assert_int_equal(pir_polytope_create(v, 8, NULL, &box), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    const pir_posed_surface surface = {{mesh, NULL}, pir_pose_identity()};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    input.surfaces = &surface;
+    input.surface_count = 1;
+    input.margin = 0.02;
+    for (int i = -9; i <= 4; i++)
+        for (int j = -9; i + j < 10 && j <= 4; j++)
+            for (int k = -1; k <= 1; k++) {
+                const double gap = 0.01 * k;
+                pir_surface_contact contact[CONTACTS];
+                pir_surface_contact_result r;
+                input.pose.translation = (pir_vec3){-2 - gap, i / 10.0, j / 10.0};
+                assert_int_equal(pir_surface_contacts(box, workspace, &input, CONTACTS, contact, &r), PIR_OK);
+                bool felt = false;
+                for (size_t c = 0; c < r.contacts; c++)
+                    felt = felt || (contact[c].normal.x == -1 && fabs(contact[c].distance - gap) < 1e-12);
+                // all of the facet below y + z = 1 that the box is over has an area
+                expect(felt || (i > 0 && j > 0 && i + j >= 10), "%d, %d, %d: %zu contacts", i, j, k, r.contacts);
+            }
+    pir_workspace_destroy(workspace);
+    pir_polytope_release(box);
+    pir_trimesh_release(mesh);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -323,6 +364,7 @@ int main(void) {
         cmocka_unit_test(a_radius_takes_its_length_off_the_distance),
         cmocka_unit_test(numbers_of_contacts_are_distinct_and_steady),
         cmocka_unit_test(walls_nearer_than_a_body_is_wide_both_push),
+        cmocka_unit_test(acute_edges_hide_no_contact),
     };
     return cmocka_run_group_tests_name("results of contacts", tests, NULL, NULL);
 }

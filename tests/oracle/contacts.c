@@ -393,8 +393,7 @@ bool oracle_scene_contact(oracle_scene *scene, uint32_t i, pir_vec3 *ret_normal,
         oracle_difference *d = &scene->difference[j];
         if (lies(scene, d, s.y, s.w, &s) < 0 || !counts_at(scene, d, s.y, s.w, &s))
             continue;
-        oracle_dot(s.x, c, d->front);
-        stands = !(d->one_sided && mpz_sgn(s.x) < 0) && !rises_over(scene, d, c, s.w, &s);
+        stands = !rises_over(scene, d, c, s.w, &s);
     }
     // the triangle itself is met there; from behind it is none
     oracle_dot(s.x, c, scene->difference[i].front);
@@ -531,15 +530,14 @@ static void set_square(oracle_half_space *plane, oracle_vec at, oracle_piece *pi
     oracle_vec_clear(v);
 }
 
-/* Whether a difference is in the way of P at the plane of another: it rises over it, or has its back on it. */
+/* Whether a difference is in the way of P at the plane of another: it rises over it. */
 static bool is_in_the_way(const oracle_difference *d, oracle_half_space *plane, scratch *s) {
     for (uint32_t k = 0; k < d->count; k++) {
         oracle_dot(s->x, plane->n, ((oracle_difference *)d)->d[k]);
         if (mpz_cmp(s->x, plane->most) > 0)
             return true;
     }
-    oracle_dot(s->x, plane->n, ((oracle_difference *)d)->front);
-    return d->one_sided && mpz_sgn(s->x) > 0;
+    return false;
 }
 
 /* Whether some of a piece is in no difference that is in the way: it is cut along the half-spaces of one after one. */

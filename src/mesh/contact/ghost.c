@@ -133,12 +133,12 @@ static bool is_met(struct contact *c, const pir_near_triangle *r) {
     return pir_exact_nearest(c->job, &c->place, r, &simplex);
 }
 
-/* Whether n does not separate P from r, or leads into its back. */
+/* Whether n does not separate P from r. */
 static bool is_against(struct contact *c, const pir_near_triangle *r) {
     for (int b = 0; b < 3; b++)
         if (rise(c, r, b) > 0)
             return true;
-    return r->one_sided && towards_front(c, r) < 0;
+    return false;
 }
 
 /* Whether a corner of r rises that P has inside, where it touches: certainly, and at next to no cost. */

@@ -8,8 +8,8 @@
  * P from a triangle exactly when no corner of that rises over this plane: P drops out of this sign. Triangles that rise
  * are asked whether P meets them there. One that has all the corners that x lies between certainly is met.
  *
- * A one-sided triangle that P is not wholly behind has a solid behind it, however thin, so n must not lead into its
- * back either.
+ * A one-sided triangle pushes to its front: n must not lead into its own back. Into that of another it may: at an acute
+ * edge of a solid the normal of either facet does.
  */
 #ifndef PIR_MESH_CONTACT_GHOST_H
 #define PIR_MESH_CONTACT_GHOST_H
