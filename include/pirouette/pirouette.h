@@ -26,6 +26,7 @@
 #include <pirouette/shape.h>
 #include <pirouette/simplify.h>
 #include <pirouette/solid.h>
+#include <pirouette/solid_contact.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
 #include <pirouette/trimesh.h>

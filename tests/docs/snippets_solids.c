@@ -32,7 +32,17 @@ int main(void) {
 
     /* snippet 2 */
 
-    const int good = pir_mesh_facet_count(mesh) > 8 && state == PIR_INSIDE && depth.depth > 0;
+    pir_solid_contacts *contacts = NULL;
+    enum { most = 16 };
+    pir_solid_contact contact[most];
+    size_t count = 0;
+    input.pose_p.translation.x = -2; /* side by side */
+
+    /* snippet 3 */
+
+    const bool touches = count > 0 && contact[0].distance == 0 && contact[0].normal.x == -1;
+    const int good = pir_mesh_facet_count(mesh) > 8 && state == PIR_INSIDE && depth.depth > 0 && touches;
+    pir_solid_contacts_destroy(contacts);
     pir_solid_query_destroy(query);
     pir_workspace_destroy(workspace);
     pir_pieces_destroy(pieces_q);

@@ -30,6 +30,7 @@ struct world {
     pir_trimesh *mesh;
     pir_trimesh_pair *meshes;
     pir_clash_body *tetrahedron;
+    pir_solid_contacts *contacts;
     double height; /* where what is asked about stands; not a number makes the call fail */
 };
 
@@ -118,6 +119,11 @@ static pir_status ask_clash_pairs(struct world *w, size_t capacity, void *array,
     return pir_clash_pairs(bodies, 3, w->height, capacity, array, count);
 }
 
+static pir_status ask_solid_contacts(struct world *w, size_t capacity, void *array, size_t *count) {
+    const pir_pair_input input = pair_input(w);
+    return pir_solid_contacts_find(w->contacts, w->workspace, &input, capacity, array, count);
+}
+
 /* `in_part`: of fewer there are the first, not any; the others give any of them. */
 static const struct {
     const char *name;
@@ -136,6 +142,7 @@ static const struct {
     {"pir_surface_box", ask_surface_box, sizeof(uint32_t), false},
     {"pir_trimesh_pair_within", ask_trimesh_pair_within, sizeof(pir_triangle_pair), false},
     {"pir_clash_pairs", ask_clash_pairs, sizeof(pir_clash_pair), true},
+    {"pir_solid_contacts_find", ask_solid_contacts, sizeof(pir_solid_contact), true},
 };
 enum { CALLS = sizeof calls / sizeof *calls };
 
@@ -160,6 +167,18 @@ static pir_clash_body *make_tetrahedron(void) {
     return body;
 }
 
+static pir_solid_contacts *make_contacts(const pir_polytope *cube) {
+    pir_solid *solid = NULL;
+    pir_pieces *pieces = NULL;
+    pir_solid_contacts *contacts = NULL;
+    assert_int_equal(pir_solid_from_polytope(cube, NULL, &solid), PIR_OK);
+    assert_int_equal(pir_solid_decompose(solid, NULL, NULL, &pieces), PIR_OK);
+    assert_int_equal(pir_solid_contacts_create(pieces, pieces, NULL, &contacts), PIR_OK);
+    pir_pieces_destroy(pieces);
+    pir_solid_release(solid);
+    return contacts;
+}
+
 static void make(struct world *w) {
     mesh_arrays arrays = mesh_bumpy_sphere(1, 0);
     pir_sum_options options = pir_sum_options_default();
@@ -175,10 +194,12 @@ static void make(struct world *w) {
     assert_int_equal(pir_pair_create(w->cube, w->cube, NULL, &w->pair), PIR_OK);
     assert_int_equal(pir_trimesh_pair_create(w->mesh, w->mesh, NULL, &w->meshes), PIR_OK);
     w->tetrahedron = make_tetrahedron();
+    w->contacts = make_contacts(w->cube);
     make_scene(w);
 }
 
 static void clear(struct world *w) {
+    pir_solid_contacts_destroy(w->contacts);
     pir_clash_body_destroy(w->tetrahedron);
     pir_trimesh_pair_destroy(w->meshes);
     pir_trimesh_release(w->mesh);
