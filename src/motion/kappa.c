@@ -74,7 +74,8 @@ static double shortest_between(double low, double high) {
     if (high < 0)
         return -shortest_between(-high, -low);
     for (int bit = ilogb(high);; bit--) {
-        const double x = ldexp(ceil(ldexp(low, -bit)), bit);
+        // a low that vanishes in these units is above 0 all the same
+        const double units = fmax(ceil(ldexp(low, -bit)), 1), x = ldexp(units, bit);
         if (x <= high)
             return x;
     }

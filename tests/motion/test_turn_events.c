@@ -277,6 +277,10 @@ static void seeking_an_event_leaves_it_behind(void **state) {
         pir_events_kappa(events, kappa);
         assert_true(kappa[0] == expected[k] && kappa[1] == expected[k]);
         assert_int_equal(pir_events_facet_count(events), 10);
+        // behind 0 the least double below it is not rounded to 0
+        double between;
+        assert_int_equal(pir_events_between(events, &between), PIR_OK);
+        assert_true(between < expected[k] && (k == 2 || between > expected[k + 1]));
     }
     assert_int_equal(pir_events_next(events, &event, &found), PIR_OK);
     assert_false(found);

@@ -39,7 +39,8 @@ static void check_sum(pir_sum *tracked, pir_quat rotation, bool difference, uint
                      PIR_OK);
     assert_true(pir_sum_same_pairing(tracked, fresh));
     assert_int_equal(pir_sum_mesh(fresh, PIR_DOUBLE, &mesh), PIR_OK);
-    assert_int_equal(pir_mesh_facet_count(mesh), facets);
+    expect(pir_mesh_facet_count(mesh) == facets, "at %g, %g, %g, %g: %u facets, not %u", rotation.x, rotation.y,
+           rotation.z, rotation.w, (unsigned)pir_mesh_facet_count(mesh), (unsigned)facets);
     pir_mesh_destroy(mesh);
     pir_sum_destroy(fresh);
 }
@@ -53,7 +54,7 @@ static uint32_t run_turn(uint64_t number, uint32_t most) {
     assert_int_equal(pir_shape_create(shapes[test_random_below(&random, 6)], NULL, NULL, &p), PIR_OK);
     if (test_random_below(&random, 3) == 0) {
         pir_polytope_release(p);
-        p = test_random_polytope(&random, TEST_SPHERE, 30);
+        p = test_sphere(&random, 30);
     }
     assert_int_equal(pir_shape_create(shapes[test_random_below(&random, 6)], NULL, NULL, &q), PIR_OK);
     const pir_vec3 axis = {test_random_between(&random, -3, 3), test_random_between(&random, -3, 3), 2};
@@ -70,8 +71,10 @@ static uint32_t run_turn(uint64_t number, uint32_t most) {
     while (found && looked < most) {
         pir_event event;
         double kappa;
-        assert_int_equal(pir_events_between(events, &kappa), PIR_OK);
-        if (is_short(kappa)) {
+        // what would come together but for rounding in the models comes without a double in between
+        const pir_status status = pir_events_between(events, &kappa);
+        assert_true(status == PIR_OK || status == PIR_ERR_LIMIT);
+        if (status == PIR_OK && is_short(kappa)) {
             check_sum(sum, at_kappa(axis, kappa, start), options.difference, pir_events_facet_count(events));
             looked++;
         }
