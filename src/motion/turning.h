@@ -17,7 +17,8 @@
  * The error of a form, with u = 2^-53: x' is off by 45u (r of 31u, x of 8u, rounding 5.3u), the axis by 4u. σ² has
  * x'·y, off by 56u; στ has 2 (u × x')·y, off by 2·(4 + 45 + 4 + 8 + 4)u = 130u; τ² has the dot product of y
  * with x' reflected, off by 2·(4 + 45 + 4 + 4 + 3)u + 48u + 12u = 180u. Together below 2^-44 = 512u, for any (σ,
- * τ), and likewise where Q's vector has the form and P's are turned by r.
+ * τ), and likewise where Q's vector has the form and P's are turned by r. Relative rotations,
+ * whose r is off by 37u, are within the bound too.
  */
 #ifndef PIR_MOTION_TURNING_H
 #define PIR_MOTION_TURNING_H
