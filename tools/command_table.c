@@ -134,6 +134,17 @@ static const struct option distance_options[] = {
     COMMON_OPTIONS,
 };
 
+command_run cmd_events;
+static const struct option events_options[] = {
+    {"--axis", "x,y,z", "the axis of the turn, of any length but 0 (0,0,1)"},
+    {"--quat", "x,y,z,w", "turn P by this quaternion first, exactly as given, of any length but 0"},
+    {"--from", "DEGREES", "leave out what comes before this angle (0)"},
+    {"--to", "DEGREES", "leave out what comes after this angle (360)"},
+    {"--difference", NULL, "of the sum of Q and the reflected, turned P"},
+    {"--plot", "FILE", "draw how many facets the sum has over the angle to FILE, .svg"},
+    MODEL_OPTIONS,
+};
+
 command_run cmd_cgm;
 static const struct option cgm_options[] = {
     POSE_OPTIONS,
@@ -313,6 +324,19 @@ const struct command command_table[] = {
         .examples = {{"track shape:cube shape:gs4 --frames 100 --verify", "hold every frame against a rebuilt sum"},
                      {"track shape:cube shape:gs4 --frames 100 --plot times.svg --json", "draw the times"},
                      {"track shape:cube shape:cube --solid --frames 100", "as solids, convex or not"}},
+    },
+    {
+        .name = "events",
+        .run = CORE(cmd_events),
+        .positional = {"P", "Q"},
+        .required = 2,
+        .summary = "the angles at which the sum of P and Q changes while P makes a full turn, exactly",
+        .details = "Each angle is a root of a quadratic with integer coefficients in kappa, which is the length of the "
+                   "axis times the cotangent of half the angle. It is told with the facets that the sum loses and "
+                   "gains there; changes at one angle are one event.",
+        .options = events_options,
+        .examples = {{"events shape:cube shape:octahedron --axis 1,2,3", "all of a turn"},
+                     {"events shape:cube shape:gs4 --from 10 --to 20 --json", "some, with their facets"}},
     },
     {
         .name = "query",

@@ -3,7 +3,7 @@
  * Exact coordinates in and out, as GMP rationals. The one public header that shows GMP; pirouette.h does not include
  * it.
  *
- * GMP's own allocation functions serve the mpq_t arguments; GMP ends the process when they run out of memory.
+ * GMP's own allocation functions serve the mpq_t and mpz_t arguments; GMP ends the process when they run out of memory.
  */
 #ifndef PIROUETTE_EXACT_H
 #define PIROUETTE_EXACT_H
@@ -13,6 +13,7 @@
 #include <pirouette/base.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
+#include <pirouette/events.h>
 #include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
 #include <pirouette/section.h>
@@ -150,6 +151,19 @@ PIR_API pir_status pir_section_corner_exact(const pir_section *section, const pi
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t vertex, mpq_t ret_plane[4]);
+
+/**
+ * The quadratic that the place among events is a root of: c[0]·κ² + c[1]·κ + c[2] = 0, into three initialised
+ * integers without a common divisor, the first that is not zero positive. c[0] is zero where κ is rational and the
+ * root of a linear one. PIR_ERR_ARGUMENT at the beginning of the turn.
+ *
+ * ret_coefficients  three.
+ *
+ * Cost: O(1), in exact arithmetic.
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_coefficients);
 
 #ifdef __cplusplus
 }

@@ -161,6 +161,22 @@ static pir_status ask_object_sum(struct world *w, const void *options, pir_repor
     return tell_mesh(pir_object_sum(w->tetra, w->cube, straight, options, PIR_DOUBLE, &mesh), &mesh, told);
 }
 
+static pir_status ask_events_create(struct world *w, const void *options, pir_report *report, double *told) {
+    pir_events *events = NULL;
+    pir_event event;
+    double kappa[2];
+    bool found;
+    (void)report;
+    const pir_status status = pir_events_create(w->tetra, w->tetra, straight, (pir_vec3){1, 2, 3}, options, &events);
+    if (status != PIR_OK)
+        return status;
+    assert_int_equal(pir_events_next(events, &event, &found), PIR_OK);
+    pir_events_kappa(events, kappa);
+    *told = kappa[0];
+    pir_events_destroy(events);
+    return PIR_OK;
+}
+
 static pir_status ask_pair_create(struct world *w, const void *options, pir_report *report, double *told) {
     pir_pair *pair = NULL;
     (void)report;
@@ -390,6 +406,7 @@ KIND(polytope, LACKS(polytope, merge_tolerance), 0, , o->merge_tolerance = NAN)
 KIND(read, LACKS(read, merge_tolerance), 0, , o->merge_tolerance = NAN)
 KIND(simplify, LACKS(simplify, error), 0, o->vertices = 5, o->error = NAN)
 KIND(sum, LACKS(sum, difference), 0, , o->difference = true)
+KIND(events, LACKS(events, difference), 0, , o->difference = true)
 KIND(pair, LACKS(pair, least), 0, , o->least = PIR_LEVEL_WHOLE; o->most = PIR_LEVEL_NONE)
 KIND(scene, LACKS(scene, detail), LACKS(scene, report), o->report = w->report, o->margin = -1)
 KIND(body, LACKS(body, radius), 0, o->pieces = &w->cube; o->piece_count = 1, o->radius = NAN)
@@ -417,6 +434,7 @@ static const struct call {
     {"pir_sum_create", ask_sum_create, &sum_kind, false},
     {"pir_hull_sum", ask_hull_sum, &sum_kind, false},
     {"pir_object_sum", ask_object_sum, &sum_kind, false},
+    {"pir_events_create", ask_events_create, &events_kind, false},
     {"pir_pair_create", ask_pair_create, &pair_kind, false},
     {"pir_history_pair", ask_history_pair, &pair_kind, false},
     {"pir_history_scene", ask_history_scene, &scene_kind, false},
