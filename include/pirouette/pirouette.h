@@ -9,6 +9,7 @@
 #include <pirouette/base.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
+#include <pirouette/gradient.h>
 #include <pirouette/history.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>

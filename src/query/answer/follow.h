@@ -50,6 +50,7 @@ struct pir_query {
 
     pir_frame frame;
     pir_exact exact;
+    pir_piece decided; /* of the last answer: see pir_task */
     pir_search search;
     pir_leaves *leaves;    /* made by the first batch */
     pir_regional regional; /* made when a region is first asked */
