@@ -69,7 +69,7 @@ static pir_status ask_whole(pir_pair *pair, pir_workspace *workspace, const pir_
     pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
     pir_query_cache cache = {0};
     pir_query_answer(workspace->query, &placement, &asked, want, &cache, &workspace->answer);
-    workspace->decided = workspace->query->decided;
+    workspace->decided = workspace->query->room->decided;
     keep_facet(pair, &cache);
     pair->statistics.by_whole++;
     pair->level = PIR_LEVEL_WHOLE;

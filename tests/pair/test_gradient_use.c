@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-#include <pirouette/gradient.h>
+#include <pirouette/solid_query.h>
 
+#include "solid/bodies.h"
 #include "support/bodies.h"
 #include "support/memory.h"
 #include "support/random.h"
@@ -279,6 +280,56 @@ static void other_coordinates_tell_the_same(void **state) {
     }
 }
 
+/* The gradient of the distance of two bodies of cubes, against differences of it, where one pair of pieces has it. */
+static void solids_have_the_gradient_of_two_pieces(void **state) {
+    (void)state;
+    pir_workspace *workspace;
+    unsigned told = 0, none = 0;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t i = 0; i < 40; i++) {
+        test_random random = test_random_case("solids", i);
+        const cells p = cells_random(&random, 6), q = cells_random(&random, 9);
+        pir_solid *of_p = solid_of_cells(&p), *of_q = solid_of_cells(&q);
+        pir_pieces *pieces_p = NULL, *pieces_q = NULL;
+        pir_solid_query *query = NULL;
+        assert_int_equal(pir_solid_decompose(of_p, NULL, NULL, &pieces_p), PIR_OK);
+        assert_int_equal(pir_solid_decompose(of_q, NULL, NULL, &pieces_q), PIR_OK);
+        assert_int_equal(pir_solid_query_create(pieces_p, pieces_q, NULL, &query), PIR_OK);
+        pir_pair_input input = pir_pair_input_default();
+        const pir_vec3 way = test_random_direction(&random), v = test_random_direction(&random);
+        const pir_vec3 w = test_random_direction(&random);
+        input.pose_p.rotation = (pir_quat){way.y, way.z, 0.5, way.x};
+        input.pose_p.translation = test_add(test_zero, way, i % 2 ? 9 : 0.25);
+        pir_solid_distance distance, side[2];
+        pir_gradient gradient;
+        pir_curvature curvature;
+        assert_int_equal(pir_solid_query_gradient(query, workspace, &input, &distance, &gradient, &curvature), PIR_OK);
+        assert_int_equal(pir_solid_query_gradient(query, workspace, &input, NULL, &gradient, NULL), PIR_ERR_ARGUMENT);
+        if (distance.result.outcome == PIR_SEPARATED) {
+            pir_pair_input to = input;
+            for (int k = 0; k < 2; k++) {
+                const double step = k ? STEP : -STEP;
+                to.pose_p = moved(input.pose_p, 0, test_add(test_zero, v, step), test_add(test_zero, w, step));
+                assert_int_equal(pir_solid_query_distance(query, workspace, &to, &side[k]), PIR_OK);
+            }
+            const double should = (side[1].result.distance - side[0].result.distance) / (2 * STEP);
+            expect(fabs(pir_wrench_along(gradient.p, v, w) - should) < 1e-6 && curvature.is_known,
+                   "case %u: %g, not %g", (unsigned)i, pir_wrench_along(gradient.p, v, w), should);
+            told++;
+        } else {
+            assert_true(gradient.features.p.kind == PIR_FEATURE_NONE && !curvature.is_known);
+            none++;
+        }
+        pir_solid_query_destroy(query);
+        pir_pieces_destroy(pieces_q);
+        pir_pieces_destroy(pieces_p);
+        pir_solid_release(of_q);
+        pir_solid_release(of_p);
+    }
+    expect(told >= 20 && none >= 1, "%u apart, %u overlap", told, none);
+    pir_workspace_destroy(workspace);
+}
+
 static void what_is_no_question_is_refused(void **state) {
     (void)state;
     struct bench b;
@@ -351,6 +402,7 @@ int main(void) {
         cmocka_unit_test(a_slack_counts_to_the_last_bit_by_roots),
         cmocka_unit_test(answers_without_a_normal_have_no_derivatives),
         cmocka_unit_test(other_coordinates_tell_the_same),
+        cmocka_unit_test(solids_have_the_gradient_of_two_pieces),
         cmocka_unit_test(what_is_no_question_is_refused),
         cmocka_unit_test(running_out_of_memory_is_a_status),
     };

@@ -26,6 +26,7 @@ typedef struct pir_query_room {
     pir_group_work work;
     pir_limbs limbs;
     pir_patch_room patches;
+    pir_piece decided;        /* of the last answer, whosever it was: see pir_task */
     const pir_walker *walker; /* the version for this processor */
 } pir_query_room;
 
@@ -50,7 +51,6 @@ struct pir_query {
 
     pir_frame frame;
     pir_exact exact;
-    pir_piece decided; /* of the last answer: see pir_task */
     pir_search search;
     pir_leaves *leaves;    /* made by the first batch */
     pir_regional regional; /* made when a region is first asked */

@@ -10,7 +10,7 @@ pir_status pir_query_gradient(pir_query *query, const pir_query_input *input, pi
     if (status != PIR_OK)
         return status;
     const pir_deriving deriving = {input->radius_p, input->radius_q, input->translation, {0, 0, 0}};
-    pir_derive(&query->frame, NULL, query->decided, ret_result, &deriving, ret_gradient, ret_curvature);
+    pir_derive(&query->frame, NULL, query->room->decided, ret_result, &deriving, ret_gradient, ret_curvature);
     return PIR_OK;
 }
 
@@ -30,8 +30,8 @@ pir_status pir_query_active(pir_query *query, const pir_query_input *input, doub
         return status;
     pir_active_list list = {.frame = &query->frame, .radii = *input, .capacity = capacity, .at = ret_active};
     list.deriving.origin_p = input->translation;
-    if (query->decided.kind != PIR_NO_PIECE)
-        pir_active_facets(&list, query, &placement, query->decided, slack);
+    if (query->room->decided.kind != PIR_NO_PIECE)
+        pir_active_facets(&list, query, &placement, query->room->decided, slack);
     else if (pir_active_has_points(&result))
         pir_active_apart(&list, &query->exact, &placement, &result);
     *ret_count = list.count;
