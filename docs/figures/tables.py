@@ -211,6 +211,18 @@ def whole(r):
     return markdown(["body", ">sum and query, bytes", ">made in µs", ">reset in µs"], rows)
 
 
+# ---- gradients.md ----------------------------------------------------------------------------------------------------
+
+
+def gradients(r):
+    rows = []
+    for body, motion in dict.fromkeys((row["body"], row["motion"]) for row in r.gradients.rows):
+        times = [r.gradients.number("median_ns", body=body, motion=motion, what=what)
+                 for what in ("distance", "gradient", "Hessian", "active set")]
+        rows.append([BODIES[body], motion, *(count(f"{time:.0f}") for time in times)])
+    return markdown(["bodies", "motion", ">distance", ">with its gradient", ">and Hessian", ">active set"], rows)
+
+
 # ---- scale.md --------------------------------------------------------------------------------------------------------
 
 
@@ -339,5 +351,5 @@ def solid_depth(r):
 
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
-    scene_terrain, mesh_octrees, mesh_index, objects, whole, scale, pile, slices, slices_read, grid, answers, solids,
-    solid_query, solid_depth)}
+    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid, answers,
+    solids, solid_query, solid_depth)}

@@ -21,7 +21,7 @@ ROOT = HERE.parent.parent
 # The pages in the order of the navigation.
 PAGES = {
     "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
-    "docs/scenes.md": "Scenes",
+    "docs/gradients.md": "Gradients", "docs/scenes.md": "Scenes",
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps",
     "docs/object-space.md": "Sums of simple bodies", "docs/slices.md": "Slices",
     "docs/scale.md": "Slices at scale",

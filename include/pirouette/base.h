@@ -91,8 +91,9 @@ typedef struct pir_quat {
  *
  * An allocator given to an object must outlive it. It is called only from the thread that called Pirouette. GMP's own
  * memory is used only where exact.h shows GMP types, where exact text is read or written, where facets are merged
- * (pir_polytope_options), where a mass or an exact motion is computed (mass.h), and in work on solids (solid.h); the
- * rest comes from here.
+ * (pir_polytope_options), where a mass or an exact motion is computed (mass.h), where the slack of an active set
+ * (gradient.h) is one that doubles cannot tell from a facet's, and in work on solids (solid.h); the rest comes from
+ * here.
  */
 typedef struct pir_allocator {
     void *(*resize)(void *context, void *block, size_t old_size, size_t new_size);

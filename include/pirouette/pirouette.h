@@ -10,6 +10,7 @@
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
 #include <pirouette/events.h>
+#include <pirouette/gradient.h>
 #include <pirouette/history.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>

@@ -22,6 +22,7 @@
 #define PIROUETTE_SOLID_QUERY_H
 
 #include <pirouette/base.h>
+#include <pirouette/gradient.h>
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/solid.h>
@@ -82,6 +83,23 @@ typedef struct pir_solid_distance {
  */
 PIR_API pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspace *workspace,
                                             const pir_pair_input *input, pir_solid_distance *ret_distance);
+
+/**
+ * The distance of two bodies in convex pieces, as pir_solid_query_distance gives it, with its derivatives: those of the
+ * two pieces that it names, whose features they are of. All are 0, without features, where the bodies overlap, for
+ * their depth is not that of two pieces. Where several pairs of pieces have the distance they are those of the first.
+ *
+ * workspace, input  scratch, poses, radii and cutoff.
+ * ret_distance      the answer.
+ * ret_curvature     NULL where second derivatives are not wanted.
+ *
+ * Cost: that of pir_solid_query_distance, and of a query of a pair.
+ *
+ * Errors: those of a query.
+ */
+PIR_API pir_status pir_solid_query_gradient(pir_solid_query *query, pir_workspace *workspace,
+                                            const pir_pair_input *input, pir_solid_distance *ret_distance,
+                                            pir_gradient *ret_gradient, pir_curvature *ret_curvature);
 
 /**
  * When P first comes within the tolerance of Q, by conservative advancement (Mirtich, 1996) of each pair of pieces

@@ -69,6 +69,7 @@ static pir_status ask_whole(pir_pair *pair, pir_workspace *workspace, const pir_
     pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .cutoff = input->cutoff};
     pir_query_cache cache = {0};
     pir_query_answer(workspace->query, &placement, &asked, want, &cache, &workspace->answer);
+    workspace->decided = workspace->query->room->decided;
     keep_facet(pair, &cache);
     pair->statistics.by_whole++;
     pair->level = PIR_LEVEL_WHOLE;
@@ -84,6 +85,7 @@ static bool by_proof(pir_pair *pair, pir_workspace *workspace, const pir_pair_in
     if (!pir_pair_allows(pair, PIR_LEVEL_APART) || !pir_pair_stays_apart(pair, input, has_cutoff ? cutoff + radii : 0))
         return false;
     pir_result_clear(&workspace->answer);
+    workspace->decided.kind = PIR_NO_PIECE;
     if (has_cutoff) {
         workspace->answer.outcome = PIR_BEYOND_CUTOFF;
         workspace->answer.distance = cutoff;
@@ -162,10 +164,12 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
         pir_status status = ask_whole(pair, workspace, input, want);
         if (status != PIR_OK)
             return status;
-    } else if (input->radius_p + input->radius_q > 0) {
-        add_radii(input, result);
-    } else if (result->outcome == PIR_BEYOND_CUTOFF) {
-        result->distance = input->cutoff > 0 ? input->cutoff : 0;
+    } else {
+        workspace->decided = asked.task.decided;
+        if (input->radius_p + input->radius_q > 0)
+            add_radii(input, result);
+        else if (result->outcome == PIR_BEYOND_CUTOFF)
+            result->distance = input->cutoff > 0 ? input->cutoff : 0;
     }
     if (workspace->posed)
         pir_pair_to_world(workspace, result);

@@ -70,6 +70,7 @@ struct pir_workspace {
     pir_pose pose[2];     /* of P and of Q */
     pir_placement placement;
     pir_query_result answer; /* that it gave */
+    pir_piece decided;       /* of that answer: see pir_task */
 
     /* the level `whole`: for the bodies of the pair that took it last */
     pir_sum *sum;

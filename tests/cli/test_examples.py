@@ -237,6 +237,34 @@ class Examples:
             said.add(place)
         assert len(self.lines) == 6 and said == {"outside", "boundary", "inside"}, self.lines
 
+    def trajectory(self):
+        """Every pose of the path is free: its distance from the post is worked out from corners and edges."""
+        sizes = ((1.6, 0.2, 0.2), (0.4, 0.4, 4))
+        sides = [[(a, b) for a, b in itertools.combinations(box(*s), 2) if sum(x != y for x, y in zip(a, b)) == 1]
+                 for s in sizes]
+        least = [float(re.fullmatch(r"step \d+: least distance (\S+)", line).group(1)) for line in self.lines[:5]]
+        # at first the bar is in the post, from which it leaves sideways, past half of either less 0.125
+        assert abs(least[0] + 0.2 + 0.1 - 0.125) < 1e-6 and 0.05 < least[-1] < 0.1, least
+        self.lines = self.lines[5:]
+        rows = self.rows(r"pose (\d+): (\S+) (\S+) (\S+) turned (\S+) (\S+) (\S+) (\S+)", 13)
+        nearest = math.inf
+        for number, *pose in rows:
+            at, quat = tuple(pose[:3]), tuple(pose[3:])
+            back = tuple(-c for c in quat[:3]) + quat[3:]
+            p, q = turned(quat, box(*sizes[0])), box(*sizes[1])
+            edges = turned(quat, box_edges(*sizes[0])) + box_edges(*sizes[1])
+            assert min(slack for slack, n in slacks(p, q, edges, at) if math.hypot(*n) > 1e-9) < 0, pose
+            corners = [beside_box(add(c, at), sizes[1]) for c in p]
+            corners += [beside_box(c, sizes[0]) for c in turned(back, [add(c, at, -1) for c in q])]
+            true = min(corners + [between_segments([add(c, at) for c in turned(quat, a)], b)
+                                  for a in sides[0] for b in sides[1]])
+            if number in (0, 12):
+                assert quat == ((0, 0, 0.28, 0.96) if number else (0, 0, 0, 1)), (number, pose)
+                assert at == (number / 4 - 1.5, 0.125, 0.0625), (number, pose)
+            else:
+                nearest = min(nearest, true)
+        assert abs(nearest - least[-1]) < 1e-6, (nearest, least)
+
     def two_bodies(self):
         """Boxes are as far apart as a corner from the other, or two edges; as deep as their least slack."""
         form = re.compile(r"frame +(\d+): (?:distance (\S+), normal (\S+) (\S+) (\S+), (\d+) contacts|farther.* 1.25)")

@@ -82,6 +82,16 @@ static pir_status ask_pair_escapes(struct world *w, size_t capacity, void *array
     return pir_pair_escapes(w->pair, w->workspace, &input, 10, capacity, array, count);
 }
 
+static pir_status ask_query_active(struct world *w, size_t capacity, void *array, size_t *count) {
+    pir_query_input input = query_input(w);
+    return pir_query_active(w->query, &input, 10, capacity, array, count);
+}
+
+static pir_status ask_pair_active(struct world *w, size_t capacity, void *array, size_t *count) {
+    pir_pair_input input = pair_input(w);
+    return pir_pair_active(w->pair, w->workspace, &input, 10, capacity, array, count);
+}
+
 static pir_status ask_scene_overlap(struct world *w, size_t capacity, void *array, size_t *count) {
     pir_scene_shape shape = shape_of(w);
     return pir_scene_overlap(w->scene, &shape, capacity, array, count);
@@ -135,6 +145,8 @@ static const struct {
     {"pir_query_escapes", ask_query_escapes, sizeof(pir_escape), true},
     {"pir_pair_manifold", ask_pair_manifold, sizeof(pir_contact), true},
     {"pir_pair_escapes", ask_pair_escapes, sizeof(pir_escape), true},
+    {"pir_query_active", ask_query_active, sizeof(pir_active), true},
+    {"pir_pair_active", ask_pair_active, sizeof(pir_active), true},
     {"pir_scene_overlap", ask_scene_overlap, sizeof(pir_scene_hit), true},
     {"pir_scene_distances", ask_scene_distances, sizeof(pir_scene_distance), true},
     {"pir_scene_ray_all", ask_scene_ray_all, sizeof(pir_impact), true},

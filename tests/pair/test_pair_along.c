@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <pirouette/pair.h>
+#include <pirouette/gradient.h>
 
 #include "support/bodies.h"
 #include "support/memory.h"
@@ -351,6 +351,9 @@ static pir_status ask_all(struct bench *bench, const pir_pair_input *input, pir_
     pir_query_result result;
     pir_impact impact;
     pir_escape escapes[ROOM];
+    pir_gradient gradient;
+    pir_curvature curvature;
+    static pir_active active[ROOM];
     size_t count;
     const pir_motion motion = {d, {0, 0.5, 0}, 0};
     pir_pair *pair = bench->pair;
@@ -362,6 +365,10 @@ static pir_status ask_all(struct bench *bench, const pir_pair_input *input, pir_
         status = pir_pair_largest_distance(pair, w, input, &result);
     if (status == PIR_OK)
         status = pir_pair_escapes(pair, w, input, 0.1, ROOM, escapes, &count);
+    if (status == PIR_OK)
+        status = pir_pair_gradient(pair, w, input, &result, &gradient, &curvature);
+    if (status == PIR_OK)
+        status = pir_pair_active(pair, w, input, 0, ROOM, active, &count);
     if (status == PIR_OK)
         status = pir_pair_cast(pair, w, input, d, &impact);
     return status == PIR_OK ? pir_pair_time_of_impact(pair, w, input, &motion, 1e-3, &impact) : status;

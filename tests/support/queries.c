@@ -30,6 +30,15 @@ static pir_status escapes(const test_question *q, test_answer *a) {
     return pir_query_escapes(q->query, q->input, 0, capacity, a ? a->escapes : NULL, a ? &a->count : &count);
 }
 
+static pir_status gradient(const test_question *q, test_answer *a) {
+    return pir_query_gradient(q->query, q->input, q->cache, RESULT, a ? &a->gradient : NULL, a ? &a->curvature : NULL);
+}
+
+static pir_status active(const test_question *q, test_answer *a) {
+    const size_t capacity = sizeof a->active / sizeof *a->active;
+    return pir_query_active(q->query, q->input, 0, capacity, a ? a->active : NULL, a ? &a->count : NULL);
+}
+
 static pir_status directional_depth(const test_question *q, test_answer *a) {
     return pir_query_directional_depth(q->query, q->input, q->direction, RESULT);
 }
@@ -49,6 +58,8 @@ const test_query_kind test_query_kinds[] = {
     {"signed distance", 0, signed_distance},
     {"largest distance", 0, largest_distance},
     {"escapes", 0, escapes},
+    {"gradient", 0, gradient},
+    {"active", 0, active},
     {"directional depth", TEST_DIRECTED | TEST_LENGTH | TEST_REGION, directional_depth},
     {"directional distance", TEST_DIRECTED | TEST_LENGTH, directional_distance},
     {"cast", TEST_DIRECTED, cast},

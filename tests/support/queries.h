@@ -7,7 +7,7 @@
 #ifndef PIR_TEST_QUERIES_H
 #define PIR_TEST_QUERIES_H
 
-#include <pirouette/query.h>
+#include <pirouette/gradient.h>
 
 /* A call that takes no direction, or no cache, passes it over. */
 typedef struct test_question {
@@ -22,6 +22,9 @@ typedef struct test_answer {
     pir_query_result result;
     pir_impact cast;
     pir_escape escapes[4];
+    pir_gradient gradient;
+    pir_curvature curvature;
+    pir_active active[8];
     size_t count;
 } test_answer;
 

@@ -180,6 +180,7 @@ void pir_query_answer(pir_query *query, const pir_placement *placement, const pi
     if (asked.task.want & PIR_WANT_SEPARATION)
         asked.task.limit = pir_frame_from(&query->frame, fmax(input->cutoff, 0) + radii);
     pir_task_answer(&asked.task);
+    query->room->decided = asked.task.decided;
     keep(cache, &hint, result->state == PIR_INSIDE);
     pir_result_add_radii(input, result);
 }

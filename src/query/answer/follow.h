@@ -26,6 +26,7 @@ typedef struct pir_query_room {
     pir_group_work work;
     pir_limbs limbs;
     pir_patch_room patches;
+    pir_piece decided;        /* of the last answer, whosever it was: see pir_task */
     const pir_walker *walker; /* the version for this processor */
 } pir_query_room;
 

@@ -38,6 +38,7 @@ void pir_task_near_same(pir_task *task) {
 void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {
     pir_result_set_state(task->result, PIR_INSIDE);
     pir_task_keep_facet(task, facet);
+    task->decided = facet->piece;
     if (!(task->want & PIR_WANT_DEPTH))
         return;
     if (task->has_same && pir_facet_same(facet, &task->same.facet))
@@ -49,8 +50,10 @@ void pir_task_inside(pir_task *task, const pir_facet *facet, double slack) {
 void pir_task_touching(pir_task *task, const pir_least *touching) {
     pir_result_set_state(task->result, PIR_BOUNDARY);
     pir_result_touching(task->exact, task->placement, touching, task->result);
-    if (touching->found)
-        pir_task_keep_facet(task, &touching->facet);
+    if (!touching->found)
+        return;
+    pir_task_keep_facet(task, &touching->facet);
+    task->decided = touching->facet.piece;
 }
 
 /* From a facet on which x is, or which x is within: the answer, where its slack is the least of all. */

@@ -63,6 +63,7 @@ struct pir_task {
     bool in_doubt;           /* it may be the facet of the last answer, which doubles do not tell */
     pir_same_facet same;
     pir_simplex simplex;
+    pir_piece decided; /* that of the true facet which the answer is by, x inside of D or on it; else none */
     pir_query_result *result;
 };
 
@@ -70,6 +71,7 @@ struct pir_task {
 static inline void pir_task_begin(pir_task *task) {
     task->is_outside = task->has_same = task->in_doubt = false;
     task->simplex.count = task->simplex.tried = 0;
+    task->decided.kind = PIR_NO_PIECE;
 }
 
 /* The answer, by one of the ways; PIR_WAY_OPEN where none found it. */

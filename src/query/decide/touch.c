@@ -299,9 +299,7 @@ static bool find_witness(const struct touch *touch, pir_witness faces, pir_witne
     return false;
 }
 
-bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting,
-                    pir_touch *ret_touch) {
-    const pir_frame *frame = exact->frame;
+static struct touch touch_at(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting) {
     const pir_normal *normal = meeting->normal;
     const pir_way *way = meeting->way;
     struct touch touch = {.exact = exact,
@@ -315,18 +313,86 @@ bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_
         touch.x = pir_vec_add(placement->x, pir_vec_scale(way->u, way->at));
         touch.error += PIR_SIDE_ERRORS * (way->error + PIR_SLACK_BOUND * way->at * normal->err);
     }
+    return touch;
+}
+
+/* The point of Q of a witness that is a corner. */
+static pir_vec3 point_of(const struct touch *touch, const pir_meeting *meeting, pir_witness witness) {
+    const pir_frame *frame = touch->exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    pir_vec3 y =
+        meeting->way ? touch->x : pir_vec_add(touch->placement->x, pir_vec_scale(touch->normal->unit, meeting->slack));
+    if (witness.q.kind == PIR_FEATURE_VERTEX)
+        return frame->q.vertex[witness.q.index];
+    if (witness.p.kind == PIR_FEATURE_VERTEX)
+        return pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[witness.p.index]));
+    return crossing_point(touch, p->edge_half[witness.p.index], q->edge_half[witness.q.index], y);
+}
+
+bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting,
+                    pir_touch *ret_touch) {
+    const struct touch touch = touch_at(exact, placement, meeting);
     if (!find_witness(&touch, meeting->faces, &ret_touch->witness))
         return false;
-    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_feature of_p = ret_touch->witness.p, of_q = ret_touch->witness.q;
-    pir_vec3 y = way ? touch.x : pir_vec_add(placement->x, pir_vec_scale(normal->unit, meeting->slack));
-    if (of_q.kind == PIR_FEATURE_VERTEX)
-        ret_touch->point_q = frame->q.vertex[of_q.index];
-    else if (of_p.kind == PIR_FEATURE_VERTEX)
-        ret_touch->point_q = pir_vec_sub(y, pir_mat_apply(&frame->r, frame->p.vertex[of_p.index]));
-    else
-        ret_touch->point_q = crossing_point(&touch, p->edge_half[of_p.index], q->edge_half[of_q.index], y);
+    ret_touch->point_q = point_of(&touch, meeting, ret_touch->witness);
     return true;
+}
+
+/* --- all corners --- */
+
+static void give_corner(const struct touch *touch, const pir_meeting *meeting, pir_witness witness,
+                        const pir_touch_visitor *visitor) {
+    const pir_touch corner = {witness, point_of(touch, meeting, witness)};
+    visitor->visit(visitor->context, &corner);
+}
+
+/* The vertices of a face of Q that lie on P's face, or, of P, on Q's face but not at a vertex where `only_inner`. */
+static void give_vertices(const struct touch *touch, const pir_meeting *meeting, bool of_q, bool only_inner,
+                          const pir_touch_visitor *visitor) {
+    const pir_frame *frame = touch->exact->frame;
+    const pir_polytope *body = of_q ? frame->q.polytope : frame->p.polytope;
+    const pir_feature from = of_q ? meeting->faces.q : meeting->faces.p;
+    const pir_feature on = of_q ? meeting->faces.p : meeting->faces.q;
+    const pir_view view = pir_view_of(frame, touch->normal, !of_q);
+    for (uint32_t v = next_vertex(body, from, UINT32_MAX); v != UINT32_MAX; v = next_vertex(body, from, v)) {
+        const pir_feature vertex = {PIR_FEATURE_VERTEX, v};
+        pir_feature least;
+        if (!on_face(touch, &view, on, v, &least) || (only_inner && least.kind == PIR_FEATURE_VERTEX))
+            continue;
+        give_corner(touch, meeting, of_q ? (pir_witness){least, vertex} : (pir_witness){vertex, least}, visitor);
+    }
+}
+
+/* Where the edges of two faces cross, none at an end unless each face is an edge. */
+static void give_crossings(const struct touch *touch, const pir_meeting *meeting, const pir_touch_visitor *visitor) {
+    const pir_frame *frame = touch->exact->frame;
+    const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    const pir_feature fp = meeting->faces.p, fq = meeting->faces.q;
+    const bool are_edges = fp.kind == PIR_FEATURE_EDGE && fq.kind == PIR_FEATURE_EDGE;
+    pir_witness witness;
+    for (uint32_t e = next_edge(p, fp, UINT32_MAX); e != UINT32_MAX; e = next_edge(p, fp, e))
+        for (uint32_t d = next_edge(q, fq, UINT32_MAX); d != UINT32_MAX; d = next_edge(q, fq, d))
+            if (edges_cross(touch, e, d, &witness) &&
+                (are_edges || (witness.p.kind == PIR_FEATURE_EDGE && witness.q.kind == PIR_FEATURE_EDGE)))
+                give_corner(touch, meeting, witness, visitor);
+}
+
+void pir_touch_each(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting,
+                    const pir_touch_visitor *visitor) {
+    const struct touch touch = touch_at(exact, placement, meeting);
+    const pir_feature p = meeting->faces.p, q = meeting->faces.q;
+    const bool of_vertex_p = p.kind == PIR_FEATURE_VERTEX, of_vertex_q = q.kind == PIR_FEATURE_VERTEX;
+    const bool are_edges = p.kind == PIR_FEATURE_EDGE && q.kind == PIR_FEATURE_EDGE;
+    if (!(are_edges && meeting->flat)) {
+        const bool by_q = !of_vertex_p || of_vertex_q;
+        if (by_q)
+            give_vertices(&touch, meeting, true, false, visitor);
+        if (!of_vertex_q)
+            give_vertices(&touch, meeting, false, by_q, visitor);
+    }
+    // without an area the edges are parallel
+    if (meeting->flat && !of_vertex_p && !of_vertex_q)
+        give_crossings(&touch, meeting, visitor);
 }
 
 bool pir_touch_facet(pir_exact *exact, const pir_placement *placement, const pir_facet *facet, double slack,

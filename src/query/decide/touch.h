@@ -56,6 +56,20 @@ typedef struct pir_meeting {
 /* Finds where the faces meet. False where y is not on their sum. */
 bool pir_touch_find(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting, pir_touch *ret_touch);
 
+/* Receives the corners of a meeting, one call each. */
+typedef struct pir_touch_visitor {
+    void (*visit)(void *context, const pir_touch *corner);
+    void *context;
+} pir_touch_visitor;
+
+/*
+ * Visits every corner of the polygon, segment or point of pairs of points whose sum is y, each once: those at vertices
+ * of Q by number, then those at other vertices of P by number, then crossings of edges in order. The first is that of
+ * pir_touch_find. None where y is not on the sum of the faces.
+ */
+void pir_touch_each(pir_exact *exact, const pir_placement *placement, const pir_meeting *meeting,
+                    const pir_touch_visitor *visitor);
+
 /*
  * Where the edges of P and Q cross whose sum holds y: the part of Q's edge d at which that is. `from` leads to y from
  * the corner of D where both edges begin, and `across` is across P's edge and the normal.

@@ -294,19 +294,26 @@ static double exactly_away(pir_exact *exact, const pir_placement *placement, con
     return pir_real_double(pir_real_times(length, pir_exact_unit(exact)));
 }
 
-static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
-    const pir_frame *frame = exact->frame;
-    struct line line = line_of(frame, faces);
+/* The distance of x from the corner or the edge of D, and the direction from there. */
+static double measure_line(pir_exact *exact, const pir_placement *placement, pir_witness faces,
+                           pir_normal *ret_normal) {
+    struct line line = line_of(exact->frame, faces);
     double along;
-    pir_vec3 w = away_from(frame, placement, &line, &along);
+    pir_vec3 w = away_from(exact->frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w)), error = 4 * placement->error;
-    pir_normal normal = {.err = direction_error(error, distance)};
+    *ret_normal = (pir_normal){.err = direction_error(error, distance)};
     if (is_sharp(placement, distance)) {
-        normal.unit = pir_vec_scale(w, 1 / distance);
+        ret_normal->unit = pir_vec_scale(w, 1 / distance);
     } else {
-        distance = exactly_away(exact, placement, &line, &normal.unit);
-        normal.err = 1;
+        distance = exactly_away(exact, placement, &line, &ret_normal->unit);
+        ret_normal->err = 1;
     }
+    return distance;
+}
+
+static bool answer_line(pir_exact *exact, const pir_placement *placement, pir_witness faces, pir_nearest *ret_nearest) {
+    pir_normal normal;
+    const double distance = measure_line(exact, placement, faces, &normal);
     ret_nearest->distance = distance;
     ret_nearest->normal = normal.unit;
     pir_meeting meeting = {&normal, faces, false, -distance, NULL};
@@ -363,4 +370,27 @@ bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pi
         return false;
     return flat ? pir_nearest_at_facet(exact, placement, &facet, ret_nearest)
                 : answer_line(exact, placement, faces, ret_nearest);
+}
+
+bool pir_nearest_each(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
+                      pir_nearest *ret_nearest, const pir_touch_visitor *visitor) {
+    pir_witness faces;
+    pir_facet facet;
+    pir_normal normal;
+    bool flat;
+    uint32_t steps = 0;
+    double slack;
+    if (!find_faces(exact, placement, simplex, &faces, &facet, &flat, &steps))
+        return false;
+    if (flat) {
+        slack = fmin(0, pir_facet_slack(exact, placement, &facet));
+        normal = pir_facet_normal(&facet);
+    } else {
+        slack = -measure_line(exact, placement, faces, &normal);
+    }
+    ret_nearest->distance = -slack;
+    ret_nearest->normal = normal.unit;
+    const pir_meeting meeting = {&normal, faces, flat, slack, NULL};
+    pir_touch_each(exact, placement, &meeting, visitor);
+    return true;
 }

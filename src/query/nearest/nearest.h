@@ -44,4 +44,11 @@ bool pir_nearest_at_slack(pir_exact *exact, const pir_placement *placement, cons
 bool pir_nearest_find(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
                       pir_nearest *ret_nearest, uint32_t *steps);
 
+/*
+ * Visits all pairs of nearest points that are corners of their polygon; otherwise as pir_nearest_find. Distance and
+ * normal are set before the first visit, and the touch not at all.
+ */
+bool pir_nearest_each(pir_exact *exact, const pir_placement *placement, const pir_simplex *simplex,
+                      pir_nearest *ret_nearest, const pir_touch_visitor *visitor);
+
 #endif
