@@ -16,6 +16,7 @@
 #include <pirouette/mesh.h>
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
+#include <pirouette/pair_batch.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
@@ -28,6 +29,7 @@
 #include <pirouette/solid.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
+#include <pirouette/tasks.h>
 #include <pirouette/trimesh.h>
 #include <pirouette/trimesh_contact.h>
 #include <pirouette/trimesh_pair.h>
