@@ -2,7 +2,7 @@
 //
 // Many poses of one pair: a loop of the caller's own over single calls, and a batch on one thread and on two.
 //
-// batch.csv has a line for each body with itself: a million poses that hover about contact, at 500 steps to a turn. Ways
+// batch.csv has a line for each body with itself: a million poses that hover about contact, at 500 steps a turn. Ways
 // take turns in five rounds; the figures are the medians, in nanoseconds a pose.
 //
 //     bench_batch FOLDER
