@@ -142,6 +142,24 @@ pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double
     return pir_pair_time_of_impact(pair, workspace, &input, motion, tolerance, ret_impact);
 }
 
+pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
+                                pir_trimesh_distance *ret_distances, size_t *ret_done) {
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK)
+        status = pir_trimesh_pair_nearest(pair, pose(poses + 14 * i), pose(poses + 14 * i + 7), &ret_distances[i]);
+    *ret_done = i;
+    return status;
+}
+
+pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,
+                           pir_escape *ret_escapes, size_t *ret_count) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = pose(poses);
+    input.pose_q = pose(poses + 7);
+    return pir_pair_escapes(pair, workspace, &input, slack, capacity, ret_escapes, ret_count);
+}
+
 pir_status py_polytope_write(const pir_polytope *polytope, const char *path, bool exact, pir_report *report) {
     pir_mesh *mesh;
     pir_status status = pir_mesh_from_polytope(polytope, &mesh);

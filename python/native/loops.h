@@ -32,6 +32,10 @@ pir_status py_solid_depths(pir_solid_query *query, pir_workspace *workspace, con
                            pir_solid_depth *ret_depths, size_t *ret_done);
 pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double *pose_p, const double *pose_q,
                           const pir_motion *motion, double tolerance, pir_impact *ret_impact);
+pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
+                                pir_trimesh_distance *ret_distances, size_t *ret_done);
+pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,
+                           pir_escape *ret_escapes, size_t *ret_count);
 pir_status py_polytope_write(const pir_polytope *polytope, const char *path, bool exact, pir_report *report);
 /* cffi: end */
 

@@ -11,20 +11,20 @@ from __future__ import annotations
 from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
 from ._native import ffi as _ffi
 from ._native import lib as _lib
-from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, Contacts, Distances, Impact, Pair
+from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveSet, Contacts, Distances, Impact, Pair
 from ._polytopes import Facets, Mass, Mesh, Polytope
 from ._scenes import BEGAN, ENDED, PERSISTED, Events, Scene, SceneHits
 from ._solids import Depths, Pieces, Solid, SolidPair
 from ._sums import MinkowskiSum
-from ._surfaces import HeightField, Nearest, RayHits, TriMesh
+from ._surfaces import HeightField, MeshDistances, MeshPair, Nearest, RayHits, TriMesh
 
 __version__: str = _ffi.string(_lib.pir_version()).decode()
 
 __all__ = [
-    "BAD", "BEGAN", "BOUNDARY", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events", "Facets", "FileError",
-    "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh", "MinkowskiSum", "Nearest", "NotConvex",
-    "OUTSIDE", "OutOfMemory", "PERSISTED", "Pair", "Pieces", "Polytope", "RayHits", "Scene", "SceneHits", "Solid",
-    "SolidPair", "TriMesh",
+    "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events",
+    "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
+    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
+    "Pair", "Pieces", "Polytope", "RayHits", "Scene", "SceneHits", "Solid", "SolidPair", "TriMesh",
 ]
 
 # Errors are told by the package's name.

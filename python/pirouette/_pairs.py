@@ -106,6 +106,22 @@ def both(poses_p: Any, poses_q: Any) -> Tuple[Floats, Optional[Floats], Tuple[in
     return p, q, shape_p or shape_q
 
 
+def pairs_of_poses(poses_p: Any, poses_q: Any) -> Tuple[Floats, Tuple[int, ...]]:
+    """The poses of both side by side, (n, 14), and the shape of what comes back."""
+    p, q, shape = both(poses_p, poses_q)
+    made = np.empty((shape[0] if shape else 1, 14))
+    made[:, :7], made[:, 7:] = p, np.array([[0.0, 0, 0, 1, 0, 0, 0]]) if q is None else q
+    return made, shape
+
+
+class ActiveSet(NamedTuple):
+    """Ways out of an overlap: depths, unit normals from Q to P, and the features whose facet of the sum it is."""
+
+    depth: Floats
+    normal: Floats
+    witness: "npt.NDArray[Any]"
+
+
 class Pair(Handle):
     """Two polytopes, asked at poses. A pair keeps what its last answers needed, so poses in the order of a motion
     cost least. `p` and `q` are polytopes, arrays of points, or anything with `.vertices`.
@@ -133,6 +149,7 @@ class Pair(Handle):
         made = ffi.new("pir_pair_batch **")
         check(lib.pir_pair_batch_create(self.p._pointer, self.q._pointer, options, made), "Pair")
         super().__init__(made[0], lib.pir_pair_batch_destroy)
+        self._one: Optional[Tuple[Any, Any]] = None
 
     def _ask(self, call: Any, given: Tuple[Floats, Optional[Floats], int], arrays: Any, settings: Tuple[float, ...],
              bad: str) -> None:
@@ -241,15 +258,46 @@ class Pair(Handle):
         if not (np.isfinite(p).all() and np.isfinite(to).all() and p[0, :4].any() and to[0, :4].any()):
             raise InputError("a or b: not a pose")
         motion = ffi.new("pir_motion *", motion_between(p[0], to[0]))
-        made, scratch = ffi.new("pir_pair **"), ffi.new("pir_workspace **")
-        check(lib.pir_pair_create(self.p._pointer, self.q._pointer, ffi.NULL, made), "Pair")
-        pair = ffi.gc(made[0], lib.pir_pair_destroy)
-        check(lib.pir_workspace_create(ffi.NULL, scratch), "Pair")
-        workspace = ffi.gc(scratch[0], lib.pir_workspace_destroy)
-        found = ffi.new("pir_impact *")
-        check(lib.py_pair_impact(pair, workspace, pointer(p), pointer(q), motion, number("tolerance", tolerance),
-                                 found), "time_of_impact")
+        found, limit = ffi.new("pir_impact *"), number("tolerance", tolerance)
+        with self._held():
+            pair, workspace = self._single()
+            check(lib.py_pair_impact(pair, workspace, pointer(p), pointer(q), motion, limit, found),
+                  "tolerance or pose")
         return impact_of(found)
+
+    def active_set(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                   slack: float = 0.0) -> ActiveSet:
+        """Every way out of an overlap that is at most `slack` longer than the depth: what a solver may choose among.
+        There are none unless the bodies overlap."""
+        posed, shape = pairs_of_poses(pose_p, pose_q)
+        if shape:
+            raise InputError(f"pose_p or pose_q: {len(posed)} poses, not one")
+        limit, count, capacity = number("slack", slack), ffi.new("size_t *"), 16
+        with self._held():
+            pair, workspace = self._single()
+            while True:
+                found = np.empty(capacity, dtype_of("pir_escape"))
+                check(lib.py_pair_escapes(pair, workspace, pointer(posed), limit, capacity,
+                                          pointer(found, "pir_escape *"), count), "slack or pose")
+                if count[0] <= capacity:
+                    break
+                capacity = count[0]
+        found = found[:count[0]]
+        return ActiveSet(found["depth"].copy(), found["normal"].copy(), found["witness"].copy())
+
+    def _single(self) -> Tuple[Any, Any]:
+        """A pair for questions about one pose, with its workspace."""
+        if self._one is None:
+            made, scratch = ffi.new("pir_pair **"), ffi.new("pir_workspace **")
+            check(lib.pir_pair_create(self.p._pointer, self.q._pointer, ffi.NULL, made), "Pair")
+            pair = ffi.gc(made[0], lib.pir_pair_destroy)
+            check(lib.pir_workspace_create(ffi.NULL, scratch), "Pair")
+            self._one = pair, ffi.gc(scratch[0], lib.pir_workspace_destroy)
+        return self._one
+
+    def _close(self) -> None:
+        self._one = None
+        super()._close()
 
     def __enter__(self) -> "Pair":
         return self

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ._arrays import Bytes, Floats, dtype_of, fail_at, indices, number, path_of, pointer, quaternion, rows, whole
 from ._check import Handle, InputError, check
 from ._native import ffi, lib
-from ._pairs import both
+from ._pairs import pairs_of_poses
 from ._polytopes import Mesh, Polytope
 
 
@@ -203,10 +203,8 @@ class SolidPair(Handle):
 
     def depth(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None) -> Depths:
         """As of `Solid.depth`."""
-        p, q, shape = both(poses_p, poses_q)
-        count = shape[0] if shape else 1
-        posed = np.empty((count, 14))
-        posed[:, :7], posed[:, 7:] = p, np.array([[0.0, 0, 0, 1, 0, 0, 0]]) if q is None else q
+        posed, shape = pairs_of_poses(poses_p, poses_q)
+        count = len(posed)
         found = np.zeros(count, dtype_of("pir_solid_depth"))
         done = ffi.new("size_t *")
         with self._held() as query:

@@ -8,10 +8,11 @@ from typing import Any, Callable, NamedTuple, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import (Bools, Floats, Indices, dtype_of, fail_at, floats, indices, number, path_of, pointer, rows,
+from ._arrays import (Bools, Bytes, Floats, Indices, dtype_of, fail_at, floats, indices, number, path_of, pointer, rows,
                       vectors)
-from ._check import InputError, check
+from ._check import Handle, InputError, check
 from ._native import ffi, lib
+from ._pairs import pairs_of_poses
 
 
 class RayHits(NamedTuple):
@@ -149,6 +150,79 @@ class TriMesh(Surface):
 
     def __deepcopy__(self, memo: Any) -> "TriMesh":
         return self
+
+
+class MeshDistances(NamedTuple):
+    """How two meshes stand: `state` 0 apart, 1 they share a point, 2 a part of P is within Q, 3 the reverse."""
+
+    state: Bytes
+    distance: Floats
+    triangle_p: Indices
+    triangle_q: Indices
+    point_p: Floats
+    point_q: Floats
+
+
+class MeshPair(Handle):
+    """Two triangle meshes at poses. It keeps from pose to pose what bounds can bear, so poses in the order of a motion
+    cost least.
+
+    >>> mesh = TriMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> pair = MeshPair(mesh, mesh)
+    >>> pair.nearest([[0, 0, 0, 1, 0, 0, 2], [0, 0, 0, 1, 0, 0, 0]]).distance.tolist()
+    [2.0, 0.0]
+    >>> pair.within([0, 0, 0, 1, 0, 0, 2], distance=2.5).tolist()
+    [[0, 0]]
+    """
+
+    def __init__(self, p: TriMesh, q: TriMesh) -> None:
+        for name, mesh in (("p", p), ("q", q)):
+            if not isinstance(mesh, TriMesh):
+                raise InputError(f"{name}: not a TriMesh: {mesh!r}")
+        made = ffi.new("pir_trimesh_pair **")
+        check(lib.pir_trimesh_pair_create(p._mesh, q._mesh, ffi.NULL, made), "MeshPair")
+        super().__init__(made[0], lib.pir_trimesh_pair_destroy)
+        self.p, self.q = p, q
+
+    def nearest(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None) -> MeshDistances:
+        """States, least distances, and the triangles and points that have them; which these are is exact."""
+        posed, shape = pairs_of_poses(poses_p, poses_q)
+        found, done = np.empty(len(posed), dtype_of("pir_trimesh_distance")), ffi.new("size_t *")
+        with self._held() as pair:
+            status = lib.py_mesh_pair_nearest(pair, pointer(posed), len(posed),
+                                              pointer(found, "pir_trimesh_distance *"), done)
+        fail_at(status, "poses_p or poses_q", done[0])
+        found = found.reshape(shape)
+        return MeshDistances(found["state"].astype(np.uint8), found["distance"].copy(),
+                             found["triangle_p"].astype(np.uint32), found["triangle_q"].astype(np.uint32),
+                             found["point_p"].copy(), found["point_q"].copy())
+
+    def within(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+               distance: float = 0.0) -> Indices:
+        """All pairs of triangles that are at most `distance` apart, (n, 2); of 0 those that share a point."""
+        posed, shape = pairs_of_poses(pose_p, pose_q)
+        if shape:
+            raise InputError(f"pose_p or pose_q: {len(posed)} poses, not one")
+        asked = ffi.new("pir_within_input *", {"distance": number("distance", distance)})
+        ffi.memmove(asked, pointer(posed, "char *"), posed.nbytes)
+        count, capacity = ffi.new("size_t *"), 256
+        with self._held() as pair:
+            while True:
+                found = np.empty((capacity, 2), np.uint32)
+                check(lib.pir_trimesh_pair_within(pair, asked, capacity, pointer(found, "pir_triangle_pair *"), count),
+                      "distance or pose")
+                if count[0] <= capacity:
+                    return found[:count[0]].copy()
+                capacity = count[0]
+
+    def __enter__(self) -> "MeshPair":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<MeshPair: {self.p!r}, {self.q!r}>"
 
 
 class HeightField(Surface):

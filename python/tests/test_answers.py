@@ -168,6 +168,32 @@ def test_surfaces():
         assert np.isinf(surface.nearest(origins, cutoff=0.5).distance).all()
 
 
+def test_active_sets():
+    pair = pirouette.Pair(CORNERS, CORNERS)
+    out = pair.active_set([0, 0, 0, 1, 0.25, 0.25, 0.5])
+    assert np.allclose(out.depth, 0.5) and out.normal.tolist() == [[0, 0, 1]]
+    assert len(pair.active_set([0, 0, 0, 1, 0.25, 0.25, 0.25]).depth) == 3
+    assert len(pair.active_set([0, 0, 0, 1, 0, 0, 0], slack=1e-9).depth) == 6
+    assert len(pair.active_set([0, 0, 0, 1, 0, 0, 2]).depth) == 0
+    ball = pirouette.Pair(sphere(200), sphere(200))
+    every = ball.active_set([0, 0, 0, 1, 0.1, 0, 0], slack=10)
+    assert len(every.depth) > 200 and -ball.signed_distance([0, 0, 0, 1, 0.1, 0, 0]).distance == every.depth.min()
+
+
+def test_pairs_of_meshes():
+    """Two cubes as meshes are as far apart as the polytopes that they bound, where they do not overlap."""
+    cube, poses = pirouette.Polytope(CORNERS), hovering(200)
+    pair, mesh = pirouette.Pair(cube, cube), pirouette.TriMesh(cube)
+    a, b = pirouette.MeshPair(mesh, mesh).nearest(poses), pair.signed_distance(poses)
+    assert np.allclose(a.distance, np.maximum(b.distance, 0), atol=1e-12)
+    assert np.array_equal(a.state == 1, b.state != 0)
+    apart = b.state == 0
+    assert np.allclose(np.linalg.norm(a.point_p - a.point_q, axis=1)[apart], a.distance[apart])
+    near = pirouette.MeshPair(mesh, mesh).within(poses[0], distance=float(a.distance[0]) + 1e-9)
+    assert [int(a.triangle_p[0]), int(a.triangle_q[0])] in near.tolist()
+    assert len(pirouette.MeshPair(mesh, mesh).within(poses[0], distance=9)) == 144
+
+
 def test_scenes():
     scene, cube = pirouette.Scene(), pirouette.Polytope(CORNERS)
     bodies = [scene.add(cube, pose=[0, 0, 0, 1, 3 * i, 0, 0]) for i in range(5)]
