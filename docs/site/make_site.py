@@ -20,7 +20,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 # The pages in the order of the navigation.
 PAGES = {
-    "README.md": "Pirouette", "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
+    "README.md": "Pirouette", "docs/getting-started.md": "Getting started", "docs/python.md": "Python",
+    "docs/coming-from.md": "Coming from others", "docs/queries.md": "Placement queries",
     "docs/gradients.md": "Gradients", "docs/scenes.md": "Scenes",
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps",
     "docs/object-space.md": "Sums of simple bodies", "docs/slices.md": "Slices",

@@ -18,6 +18,7 @@
 #include <pirouette/mesh.h>
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
+#include <pirouette/pair_batch.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
@@ -31,6 +32,7 @@
 #include <pirouette/solid_contact.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
+#include <pirouette/tasks.h>
 #include <pirouette/trimesh.h>
 #include <pirouette/trimesh_contact.h>
 #include <pirouette/trimesh_pair.h>

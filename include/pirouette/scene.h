@@ -58,6 +58,7 @@
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/simplify.h>
+#include <pirouette/tasks.h>
 #include <pirouette/trimesh.h>
 
 #ifdef __cplusplus
@@ -72,18 +73,6 @@ typedef enum pir_scene_detail {
     PIR_SCENE_DEPTHS,     /**< signed distance, normal, witness too */
     PIR_SCENE_MANIFOLDS,  /**< and the contact manifold */
 } pir_scene_detail;
-
-/**
- * Where a caller's own threads do the work of a scene. The two functions are called in turn, start first, from the
- * thread that called the scene.
- */
-typedef struct pir_tasks {
-    void *context;
-    /** Has task(data, i) run for each i below `count`, each once, on any threads, at once where there are some. */
-    void (*start)(void *context, void (*task)(void *data, uint32_t index), void *data, uint32_t count);
-    /** Returns when all of them have; may run some itself. */
-    void (*finish)(void *context);
-} pir_tasks;
 
 typedef struct pir_scene_options {
     size_t size;                    /**< of this struct, which pir_scene_options_default sets (base.h) */

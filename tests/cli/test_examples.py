@@ -265,6 +265,15 @@ class Examples:
                 nearest = min(nearest, true)
         assert abs(nearest - least[-1]) < 1e-6, (nearest, least)
 
+    def first(self):
+        """A cube on a corner's edge, turned by 45 degrees, sunk by an eighth: its lower corners."""
+        half = math.sqrt(0.5)
+        corners = {(0.25 + half, 0.5), (0.25 - half, 0.5), (0.25, 0.5 + half), (0.25, 0.5 - half)}
+        assert self.lines[0] == "distance -0.125, out along 0 0 1"
+        told = [tuple(map(float, line.split()[1:])) for line in self.lines[1:]]
+        assert sorted((round(x, 3), round(y, 3)) for x, y in corners) == sorted((x, y) for x, y, _ in told)
+        assert all(z == 0.125 for _, _, z in told)
+
     def two_bodies(self):
         """Boxes are as far apart as a corner from the other, or two edges; as deep as their least slack."""
         form = re.compile(r"frame +(\d+): (?:distance (\S+), normal (\S+) (\S+) (\S+), (\d+) contacts|farther.* 1.25)")

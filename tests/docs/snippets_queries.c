@@ -49,6 +49,11 @@ int main(void) {
 
     /* snippet 5 */
 
+    good = good && summary.bad == 0 && fabs(distance[0] - 1) < 1e-12 && gradient[0][2] == 1;
+    pir_pair_batch_destroy(batch);
+
+    /* snippet 6 */
+
     pir_query_input middle = pir_query_input_default();
     good = good && pir_query_penetration(asked, &middle, NULL, &result) == PIR_OK && fabs(result.distance + 1) < 1e-12;
     pir_query_destroy(asked);

@@ -186,6 +186,15 @@ static pir_status ask_pair_create(struct world *w, const void *options, pir_repo
     return status;
 }
 
+static pir_status ask_pair_batch_create(struct world *w, const void *options, pir_report *report, double *told) {
+    pir_pair_batch *batch = NULL;
+    (void)report;
+    *told = 0;
+    const pir_status status = pir_pair_batch_create(w->tetra, w->cube, options, &batch);
+    pir_pair_batch_destroy(batch);
+    return status;
+}
+
 static pir_status ask_history_pair(struct world *w, const void *options, pir_report *report, double *told) {
     pir_history *history = NULL;
     (void)report;
@@ -408,6 +417,7 @@ KIND(simplify, LACKS(simplify, error), 0, o->vertices = 5, o->error = NAN)
 KIND(sum, LACKS(sum, difference), 0, , o->difference = true)
 KIND(events, LACKS(events, difference), 0, , o->difference = true)
 KIND(pair, LACKS(pair, least), 0, , o->least = PIR_LEVEL_WHOLE; o->most = PIR_LEVEL_NONE)
+KIND(pair_batch, LACKS(pair_batch, threads), 0, , o->threads = 99)
 KIND(scene, LACKS(scene, detail), LACKS(scene, report), o->report = w->report, o->margin = -1)
 KIND(body, LACKS(body, radius), 0, o->pieces = &w->cube; o->piece_count = 1, o->radius = NAN)
 KIND(scene_ray, LACKS(scene_ray, sides), 0, , o->sides = (pir_ray_sides)9)
@@ -436,6 +446,7 @@ static const struct call {
     {"pir_object_sum", ask_object_sum, &sum_kind, false},
     {"pir_events_create", ask_events_create, &events_kind, false},
     {"pir_pair_create", ask_pair_create, &pair_kind, false},
+    {"pir_pair_batch_create", ask_pair_batch_create, &pair_batch_kind, false},
     {"pir_history_pair", ask_history_pair, &pair_kind, false},
     {"pir_history_scene", ask_history_scene, &scene_kind, false},
     {"pir_history_add", ask_history_add, &body_kind, false},

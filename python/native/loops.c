@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: MIT */
+/* Loops over public functions: see loops.h. */
+#include "loops.h"
+
+#include <string.h>
+
+void py_polytope_vertices(const pir_polytope *polytope, pir_vec3 *ret_vertices) {
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(polytope); v++)
+        ret_vertices[v] = pir_polytope_vertex(polytope, v);
+}
+
+void py_polytope_edges(const pir_polytope *polytope, uint32_t *ret_edges) {
+    for (uint32_t e = 0; e < pir_polytope_edge_count(polytope); e++)
+        pir_polytope_edge(polytope, e, ret_edges + 2 * (size_t)e);
+}
+
+void py_polytope_normals(const pir_polytope *polytope, pir_vec3 *ret_normals) {
+    for (uint32_t f = 0; f < pir_polytope_facet_count(polytope); f++)
+        ret_normals[f] = pir_polytope_normal(polytope, f);
+}
+
+void py_polytope_starts(const pir_polytope *polytope, uint32_t *ret_starts) {
+    ret_starts[0] = 0;
+    for (uint32_t f = 0; f < pir_polytope_facet_count(polytope); f++)
+        ret_starts[f + 1] = ret_starts[f] + pir_polytope_facet_size(polytope, f);
+}
+
+void py_polytope_corners(const pir_polytope *polytope, uint32_t *ret_corners) {
+    for (uint32_t f = 0; f < pir_polytope_facet_count(polytope); f++) {
+        pir_polytope_facet(polytope, f, ret_corners);
+        ret_corners += pir_polytope_facet_size(polytope, f);
+    }
+}
+
+void py_mesh_starts(const pir_mesh *mesh, uint32_t *ret_starts) {
+    ret_starts[0] = 0;
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
+        uint32_t count;
+        pir_mesh_facet(mesh, f, &count);
+        ret_starts[f + 1] = ret_starts[f] + count;
+    }
+}
+
+void py_mesh_corners(const pir_mesh *mesh, uint32_t *ret_corners) {
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
+        uint32_t count;
+        const uint32_t *corners = pir_mesh_facet(mesh, f, &count);
+        memcpy(ret_corners, corners, count * sizeof *corners);
+        ret_corners += count;
+    }
+}
+
+void py_mesh_kinds(const pir_mesh *mesh, uint8_t *ret_kinds) {
+    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++)
+        ret_kinds[f] = (uint8_t)pir_mesh_facet_kind(mesh, f);
+}
+
+void py_sum_ee(const pir_sum *sum, uint32_t *ret_pairs) {
+    pir_sum_ee(sum, (uint32_t(*)[2])ret_pairs);
+}
+
+static pir_vec3 vector(const double *numbers) {
+    return (pir_vec3){numbers[0], numbers[1], numbers[2]};
+}
+
+pir_status py_surface_rays(const pir_trimesh *mesh, const pir_height_field *field, const double *rays,
+                           pir_ray_sides sides, size_t count, pir_ray_hit *ret_hits, size_t *ret_done) {
+    const pir_surface_ref surface = {mesh, field};
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK) {
+        const pir_surface_ray ray = {vector(rays + 6 * i), vector(rays + 6 * i + 3), sides};
+        status = pir_surface_ray_nearest(surface, &ray, &ret_hits[i]);
+    }
+    *ret_done = i;
+    return status;
+}
+
+pir_status py_surface_nearest(const pir_trimesh *mesh, const pir_height_field *field, const double *points,
+                              double cutoff, size_t count, pir_surface_nearest *ret_nearest, size_t *ret_done) {
+    const pir_surface_ref surface = {mesh, field};
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK)
+        status = pir_surface_nearest_point(surface, vector(points + 3 * i), cutoff, &ret_nearest[i]);
+    *ret_done = i;
+    return status;
+}
+
+pir_status py_scene_rays(pir_scene *scene, const double *rays, uint32_t mask, size_t count, pir_impact *ret_impacts,
+                         size_t *ret_done) {
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK)
+        status = pir_scene_ray(scene, vector(rays + 6 * i), vector(rays + 6 * i + 3), mask, &ret_impacts[i]);
+    *ret_done = i;
+    return status;
+}
+
+size_t py_scene_contact_count(const pir_scene *scene) {
+    size_t events = 0, contacts = 0;
+    const pir_scene_event *event = pir_scene_events(scene, &events);
+    for (size_t i = 0; i < events; i++)
+        contacts += event[i].contact_count;
+    return contacts;
+}
+
+void py_scene_contacts(const pir_scene *scene, uint64_t *ret_starts, pir_contact *ret_contacts) {
+    size_t events = 0;
+    const pir_scene_event *event = pir_scene_events(scene, &events);
+    ret_starts[0] = 0;
+    for (size_t i = 0; i < events; i++) {
+        if (event[i].contact_count > 0)
+            memcpy(ret_contacts + ret_starts[i], event[i].contacts, event[i].contact_count * sizeof *ret_contacts);
+        ret_starts[i + 1] = ret_starts[i] + event[i].contact_count;
+    }
+}
+
+static pir_pose pose(const double *numbers) {
+    return (pir_pose){{numbers[0], numbers[1], numbers[2], numbers[3]}, vector(numbers + 4)};
+}
+
+pir_status py_solid_depths(pir_solid_query *query, pir_workspace *workspace, const double *poses, size_t count,
+                           pir_solid_depth *ret_depths, size_t *ret_done) {
+    pir_pair_input input = pir_pair_input_default();
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK) {
+        input.pose_p = pose(poses + 14 * i);
+        input.pose_q = pose(poses + 14 * i + 7);
+        status = pir_solid_query_depth(query, workspace, &input, &ret_depths[i]);
+    }
+    *ret_done = i;
+    return status;
+}
+
+pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double *pose_p, const double *pose_q,
+                          const pir_motion *motion, double tolerance, pir_impact *ret_impact) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = pose(pose_p);
+    input.pose_q = pose(pose_q);
+    return pir_pair_time_of_impact(pair, workspace, &input, motion, tolerance, ret_impact);
+}
+
+pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
+                                pir_trimesh_distance *ret_distances, size_t *ret_done) {
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK)
+        status = pir_trimesh_pair_nearest(pair, pose(poses + 14 * i), pose(poses + 14 * i + 7), &ret_distances[i]);
+    *ret_done = i;
+    return status;
+}
+
+pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,
+                           pir_escape *ret_escapes, size_t *ret_count) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = pose(poses);
+    input.pose_q = pose(poses + 7);
+    return pir_pair_escapes(pair, workspace, &input, slack, capacity, ret_escapes, ret_count);
+}
+
+pir_status py_polytope_write(const pir_polytope *polytope, const char *path, bool exact, pir_report *report) {
+    pir_mesh *mesh;
+    pir_status status = pir_mesh_from_polytope(polytope, &mesh);
+    if (status != PIR_OK)
+        return status;
+    status = pir_mesh_write(mesh, path, exact, report);
+    pir_mesh_destroy(mesh);
+    return status;
+}

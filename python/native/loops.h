@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Loops over public functions, so that Python calls once for an array. All arrays are the caller's, of the sizes that
+ * the counts of an object say. A loop that can fail ends at the first failure, whose index is *ret_done.
+ *
+ * The declarations between the marks are what cffi is given.
+ */
+#ifndef PIR_PYTHON_LOOPS_H
+#define PIR_PYTHON_LOOPS_H
+
+#include <pirouette/pirouette.h>
+
+/* cffi: begin */
+void py_polytope_vertices(const pir_polytope *polytope, pir_vec3 *ret_vertices);
+void py_polytope_edges(const pir_polytope *polytope, uint32_t *ret_edges);
+void py_polytope_normals(const pir_polytope *polytope, pir_vec3 *ret_normals);
+void py_polytope_starts(const pir_polytope *polytope, uint32_t *ret_starts);
+void py_polytope_corners(const pir_polytope *polytope, uint32_t *ret_corners);
+void py_mesh_starts(const pir_mesh *mesh, uint32_t *ret_starts);
+void py_mesh_corners(const pir_mesh *mesh, uint32_t *ret_corners);
+void py_mesh_kinds(const pir_mesh *mesh, uint8_t *ret_kinds);
+void py_sum_ee(const pir_sum *sum, uint32_t *ret_pairs);
+pir_status py_surface_rays(const pir_trimesh *mesh, const pir_height_field *field, const double *rays,
+                           pir_ray_sides sides, size_t count, pir_ray_hit *ret_hits, size_t *ret_done);
+pir_status py_surface_nearest(const pir_trimesh *mesh, const pir_height_field *field, const double *points,
+                              double cutoff, size_t count, pir_surface_nearest *ret_nearest, size_t *ret_done);
+pir_status py_scene_rays(pir_scene *scene, const double *rays, uint32_t mask, size_t count, pir_impact *ret_impacts,
+                         size_t *ret_done);
+size_t py_scene_contact_count(const pir_scene *scene);
+void py_scene_contacts(const pir_scene *scene, uint64_t *ret_starts, pir_contact *ret_contacts);
+pir_status py_solid_depths(pir_solid_query *query, pir_workspace *workspace, const double *poses, size_t count,
+                           pir_solid_depth *ret_depths, size_t *ret_done);
+pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double *pose_p, const double *pose_q,
+                          const pir_motion *motion, double tolerance, pir_impact *ret_impact);
+pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
+                                pir_trimesh_distance *ret_distances, size_t *ret_done);
+pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,
+                           pir_escape *ret_escapes, size_t *ret_count);
+pir_status py_polytope_write(const pir_polytope *polytope, const char *path, bool exact, pir_report *report);
+/* cffi: end */
+
+#endif

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""Pirouette: exact Minkowski sums and placement queries of bodies that move. Arrays in, arrays out.
+
+Rotations are quaternions x, y, z, w of any length, or matrices; poses are (n, 7), a quaternion and a translation, or
+(n, 4, 4). float64 arrays in C order go through without a copy, anything else is converted. The library runs without
+Python's lock, so threads run at once, each on objects of its own; an object that two threads use at once raises
+`InUse`. Polytopes, solids and surfaces are immutable, and shared.
+"""
+from __future__ import annotations
+
+from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
+from ._native import ffi as _ffi
+from ._native import lib as _lib
+from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveSet, Contacts, Distances, Impact, Pair
+from ._polytopes import Facets, Mass, Mesh, Polytope
+from ._scenes import BEGAN, ENDED, PERSISTED, Events, Scene, SceneHits
+from ._solids import Depths, Pieces, Solid, SolidPair
+from ._sums import MinkowskiSum
+from ._surfaces import HeightField, MeshDistances, MeshPair, Nearest, RayHits, TriMesh
+
+__version__: str = _ffi.string(_lib.pir_version()).decode()
+
+__all__ = [
+    "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events",
+    "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
+    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
+    "Pair", "Pieces", "Polytope", "RayHits", "Scene", "SceneHits", "Solid", "SolidPair", "TriMesh",
+]
+
+# Errors are told by the package's name.
+for _kind in (Error, FileError, InputError, InUse, NotConvex, OutOfMemory):
+    _kind.__module__ = "pirouette"
+del _kind
