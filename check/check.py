@@ -151,8 +151,7 @@ def check_distance(data, unit, p, all_p, q, all_q):
     """z, the difference of a point of Q and one of P, and (q - p).z >= z.z for all points q and p.
     So no difference is shorter than z: |q - p| |z| >= (q - p).z >= |z|^2."""
     _, of_p, of_q = read_mix(data, p, q)
-    z = minus(of_q, of_p)
-    hold(z != (0, 0, 0), "pairs", "put both points at one place")
+    hold((z := minus(of_q, of_p)) != (0, 0, 0), "pairs", "put both points at one place")
     hold_point(data, "point_p", of_p, unit)
     hold_point(data, "point_q", of_q, unit)
     hold(least(z, all_q) - most(z, all_p) >= dot(z, z), "pairs", "are not the nearest: a point lies nearer")
@@ -227,14 +226,15 @@ CLAIMS = {
 }
 
 def check_answer(data, answer, unit, bodies):
-    """The answer that the command printed: pose and state exactly, the number within 1e-11 of the bodies' reach."""
+    """The answer that the command printed: pose and state exactly, the number within 1e-11 of what it is made of."""
     for key in ("quat", "translation"):
         told = tuple(Fraction(c) for c in answer[key])
         hold(numbers(data, key, len(told)) == told, key, "is not the answer's")
     hold(answer["state"] == CLAIMS[data["claim"]][2], "claim", f"does not prove the state {answer['state']}")
     told = Fraction(answer["penetration"]["depth"] if answer["state"] == "inside" else answer["distance"])
     key = {"distance": "distance_squared", "depth": "depth_squared"}.get(data["claim"])
-    error = (told + Fraction(max(abs(c) for body in bodies for v in body for c in v), unit)) / 10 ** 11
+    reach = Fraction(max(abs(c) for body in bodies for v in body for c in v), unit)
+    error = (abs(told) + reach + max(map(abs, numbers(data, "translation", 3)))) / 10 ** 11
     if key:
         square = number(data, key)
         hold(max(told - error, 0) ** 2 <= square <= (told + error) ** 2, key, f"is not the answer's, {float(told)}")

@@ -52,7 +52,8 @@ static bool is_number(const struct job *job, const mpz_t num, const mpz_t den) {
         exponent--;
     }
     double length = ldexp(sqrt(square), (int)(exponent / 2));
-    double reach = length + pir_stance_reach(&job->bodies);
+    const pir_vec3 t = job->bodies.translation;
+    double reach = length + pir_stance_reach(&job->bodies) + fabs(t.x) + fabs(t.y) + fabs(t.z);
     double off = fabs(fabs(job->answer->distance) - length);
     return off <= NUMBER_ERROR * reach || (isinf(reach) && !isnan(job->answer->distance));
 }

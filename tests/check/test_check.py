@@ -84,15 +84,16 @@ CHANGES = [change_digit, change_digit, change_sign, lose_line, change_model]
 
 
 def still_true(case, changed):
-    """Whether a change of the text leaves a true statement: a quaternion's multiple, or a plane's other normal.
+    """Whether a change of the text leaves a true statement: P turned onto itself, or another normal at a corner.
 
-    A sum has no answer that its quaternion is held against; a normal may have many signs at a corner on an axis.
+    A sum has no answer that its quaternion is held against; at a corner on an axis a normal may have many signs.
     """
     before = dict(re.findall(r'"(quat|normal)": \[(.*)\]', case.text))
     after = dict(re.findall(r'"(quat|normal)": \[(.*)\]', changed.get("text", "")))
     if case.answer is None and before["quat"] != after.get("quat"):
         a, b = ([Fraction(n.strip(' "')) for n in text.split(",")] for text in (before["quat"], after["quat"]))
-        return all(x * v == y * u for x, y in zip(a, b) for u, v in zip(a, b))
+        one, other = (set(check.place(case.p, quat, (0, 0, 0), 1)) for quat in (a, b))
+        return one == other
     return "normal" in before and before["normal"].replace("-", "") == after["normal"].replace("-", "")
 
 
