@@ -143,9 +143,9 @@ static void multiply_conjugate(const double a[4], const double b[4], double ret_
 
 /*
  * The effect on r of rounding the product's components, by u each: q is off by u of its length, and so, up to terms of
- * order u², is its direction, which M(q)/|q|² depends on alone. Unit quaternions at a distance c have matrices at 2·√2·c
- * at most: 3u. So r is within 35u (tests/proofs/relative.g), less than the 37u that is promised. Bounds that rest on r
- * take a relative one into account.
+ * order u², is its direction, which M(q)/|q|² depends on alone. Unit quaternions at a distance c have matrices at
+ * 2·√2·c at most: 3u. So r is within 35u (tests/proofs/relative.g), less than the 37u that is promised. Bounds that
+ * rest on r take a relative one into account.
  */
 pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p) {
     if (pir_quat_is_identity(q) && q.w != 0 && isfinite(q.w))

@@ -27,10 +27,10 @@
  * The error of a slack in doubles is at most err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
  *
  * Proof, with u = 2^-53 and sizes r_P, r_Q (tests/proofs/slack.g has it for a machine). A unit normal is off by 6u,
- * and by 47u once rotated: the matrix is off by 35u where it is relative, the product rounds by 5.3u (exact/sign.h). That
- * moves n·(q − x) by 47u (r_Q + |x|). P's own offset n·p is off by 12u r_P: vertices 3u, normal 6u, dot product 3u. A
- * vertex of P that is rotated is off by 44u r_P, where the normal is Q's. q, x and the last operations add less than
- * 12u (r_P + r_Q + |x|). Together that is below 60u, and the bound is 128u.
+ * and by 47u once rotated: the matrix is off by 35u where it is relative, the product rounds by 5.3u (exact/sign.h).
+ * That moves n·(q − x) by 47u (r_Q + |x|). P's own offset n·p is off by 12u r_P: vertices 3u, normal 6u, dot
+ * product 3u. A vertex of P that is rotated is off by 44u r_P, where the normal is Q's. q, x and the last operations
+ * add less than 12u (r_P + r_Q + |x|). Together that is below 60u, and the bound is 128u.
  *
  * The normal of an edge pair is a cross product of unit vectors off by 6u and 47u. The product rounds by 3u and its
  * scaling by 5u, so the unit normal is off by less than 64u / sin of the edges' angle. `err` is 1 / sin for such
