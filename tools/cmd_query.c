@@ -8,6 +8,7 @@
 #include <math.h>
 
 #include "args.h"
+#include "certificate.h"
 #include "cmd.h"
 #include "json.h"
 #include "measure.h"
@@ -24,6 +25,7 @@ struct request {
     pir_quat rotation;
     pir_query_input input;
     bool has_direction, casts;
+    int proven; /* of pir_proven, for --certificate */
     pir_vec3 direction, motion;
     pir_surface surfaces[2]; /* of P and Q as given */
 };
@@ -53,6 +55,19 @@ static bool read_radius(const struct args *args, const char *name, double *radiu
     return true;
 }
 
+/* Reads what --certificate is to prove, after checks. */
+static bool read_proof(const struct args *args, int *proven) {
+    // with these the bodies are not the hulls of their models, or there are many answers
+    static const char *const others[] = {"--solid", "--merge", "--radius-p", "--radius-q", "--batch", NULL};
+    static const char *const words[] = {"state", "number", NULL};
+    *proven = PIR_PROVEN_NUMBER;
+    if (args_has(args, "--prove") && !args_has(args, "--certificate")) {
+        complain("query: --prove says what a certificate proves: give --certificate FILE");
+        return false;
+    }
+    return certificate_check(args, others) && args_choice(args, "--prove", words, proven);
+}
+
 static bool read_request(const struct args *args, struct request *request) {
     *request = (struct request){.input = pir_query_input_default()};
     if (!pose_read(args, &request->rotation) || !read_vector(args, "--translate", &request->input.translation) ||
@@ -80,7 +95,7 @@ static bool read_request(const struct args *args, struct request *request) {
                  args_value(args, "--direction"));
         return false;
     }
-    return target_check(args, "-o", args_has(args, "--batch") ? NULL : ".svg");
+    return target_check(args, "-o", args_has(args, "--batch") ? NULL : ".svg") && read_proof(args, &request->proven);
 }
 
 /* Asks all that is asked for; *ret_option names the option that a failure is about. */
@@ -201,6 +216,18 @@ static void print_text(const struct args *args, const struct request *request, c
         say("  %-12s %s\n", "file", args_value(args, "-o"));
 }
 
+/* Writes what proves the answer. */
+static bool prove(const struct args *args, const struct request *request, pir_query *query,
+                  const struct answer *answer) {
+    pir_certificate *certificate;
+    pir_status status =
+        pir_query_certificate(query, &request->input, &answer->result, (pir_proven)request->proven, &certificate);
+    if (status == PIR_OK)
+        return certificate_write(args, certificate);
+    complain("query: --certificate: '%s': %s", args_value(args, "--certificate"), pir_status_text(status));
+    return false;
+}
+
 static int run_one(const struct args *args, const struct request *request, pir_polytope *p, pir_polytope *q,
                    pir_query *query, int64_t start) {
     struct answer answer = {0};
@@ -212,9 +239,11 @@ static int run_one(const struct args *args, const struct request *request, pir_p
     const char *file = args_value(args, "-o");
     if (file && !query_picture_write(file, p, q, request->rotation, request->input.translation, &answer.result))
         return EXIT_BAD_INPUT;
+    if (args_has(args, "--certificate") && !prove(args, request, query, &answer))
+        return EXIT_BAD_INPUT;
     if (args_has(args, "--json"))
         return print_json(args, request, &answer) ? EXIT_DONE : EXIT_BAD_INPUT;
-    if (!target_is_stdout(args, "-o"))
+    if (!target_is_stdout(args, "-o") && !target_is_stdout(args, "--certificate"))
         print_text(args, request, &answer);
     return EXIT_DONE;
 }

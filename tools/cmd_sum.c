@@ -6,6 +6,7 @@
 #include <pirouette/baseline.h>
 
 #include "args.h"
+#include "certificate.h"
 #include "cmd.h"
 #include "json.h"
 #include "measure.h"
@@ -40,7 +41,7 @@ static bool read_request(const struct args *args, struct request *request) {
     request->options.difference = args_has(args, "--difference");
     request->precision = args_has(args, "--exact") ? PIR_EXACT : PIR_DOUBLE;
     return pose_read(args, &request->rotation) && args_choice(args, "--method", method_names, &request->method) &&
-           target_check(args, "-o", TARGET_MESH);
+           target_check(args, "-o", TARGET_MESH) && certificate_check(args, (const char *const[]){"--merge", NULL});
 }
 
 /* The mesh from the overlay of two cubical Gaussian maps, the pairing as that rebuild reads it. */
@@ -136,8 +137,22 @@ static void print_text(const struct args *args, const struct request *request, c
         say("  %-10s %s\n", "file", args_value(args, "-o"));
 }
 
+/* Writes what proves the sum. */
+static bool prove(const struct args *args, const struct outcome *outcome) {
+    pir_certificate *certificate;
+    pir_status status = pir_sum_certificate(outcome->sum, &certificate);
+    if (status == PIR_OK)
+        return certificate_write(args, certificate);
+    complain("sum: --certificate: '%s': %s", args_value(args, "--certificate"),
+             status == PIR_ERR_ARGUMENT ? "the sum is a point or a segment, which has no facets"
+                                        : pir_status_text(status));
+    return false;
+}
+
 SUBCOMMAND(sum) {
     struct request request;
+    if (args_has(args, "--solid") && !certificate_check(args, (const char *const[]){"--solid", NULL}))
+        return EXIT_BAD_INPUT;
     if (args_has(args, "--solid"))
         return solid_sum(args);
     if (args_has(args, "--open"))
@@ -161,10 +176,12 @@ SUBCOMMAND(sum) {
     }
     if (path && !target_write_mesh(&file, outcome.mesh, args_has(args, "--exact")))
         goto done;
+    if (args_has(args, "--certificate") && !prove(args, &outcome))
+        goto done;
     result = EXIT_DONE;
     if (args_has(args, "--json"))
         result = print_json(args, &request, &outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
-    else if (!target_is_stdout(args, "-o"))
+    else if (!target_is_stdout(args, "-o") && !target_is_stdout(args, "--certificate"))
         print_text(args, &request, &outcome);
 
 done:

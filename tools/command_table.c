@@ -172,6 +172,7 @@ static const struct option sum_options[] = {
     {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
     {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},
     {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg; of solids .off or .png"},
+    {"--certificate", "FILE", "write what proves the sum to FILE, for check/check.py; of hulls"},
     MODEL_OPTIONS,
 };
 
@@ -207,6 +208,8 @@ static const struct option query_options[] = {
     {"--cast", "x,y,z", "also when P touches Q while it moves by this"},
     {"--radius-p", "R", "round P by a ball of this radius"},
     {"--radius-q", "R", "round Q"},
+    {"--certificate", "FILE", "write what proves the answer to FILE, for check/check.py; of hulls without radii"},
+    {"--prove", "state|number", "what of the answer the certificate proves: its state, or distance or depth (number)"},
     {"--batch", "FILE.csv", "many placements: a translation x,y,z a line; answers go to -o; - is standard input"},
     {"-o", "FILE", "a picture of both bodies with the answer drawn, .svg; with --batch the answers, .csv"},
     MODEL_OPTIONS,

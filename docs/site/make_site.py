@@ -32,6 +32,7 @@ PAGES = {
     "docs/bad-input.md": "Bad input",
     "docs/accuracy.md": "Accuracy and time",
     "docs/replay.md": "Replay",
+    "docs/proofs.md": "Proofs",
     "docs/guarantees.md": "Guarantees", "docs/api-tests.md": "What tests each function",
     "docs/building.md": "Building", "ARCHITECTURE.md": "Architecture",
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security",

@@ -6,7 +6,7 @@
  * below 2^-1074, so that its largest component is in [0.5, 1). An entry is a sum of at most four products over n =
  * |q|², the magnitudes of which add up to at most n. Products err by u, three sums by 3u more, n itself by 4u, its
  * reciprocal by u and the last product by u: at most 10.01u, and 9 entries make at most 30.1u in Frobenius norm, hence
- * in what r does to a unit vector.
+ * in what r does to a unit vector (tests/proofs/rotation.g).
  */
 #include "exact/rotation.h"
 
@@ -142,9 +142,10 @@ static void multiply_conjugate(const double a[4], const double b[4], double ret_
 }
 
 /*
- * The effect on r of rounding the product's components, by u each: |q| is off by u, and M by 2·u·√2 in norm, 4u
- * with the norm that it is divided by; 6u is more than that and the terms of order u². So r is within 37u, and what
- * a relative normal or edge is off by elsewhere (42u, 37u) has 6u more; the bounds there leave room for it.
+ * The effect on r of rounding the product's components, by u each: q is off by u of its length, and so, up to terms of
+ * order u², is its direction, which M(q)/|q|² depends on alone. Unit quaternions at a distance c have matrices at
+ * 2·√2·c at most: 3u. So r is within 35u (tests/proofs/relative.g), less than the 37u that is promised. Bounds that
+ * rest on r take a relative one into account.
  */
 pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_quat p) {
     if (pir_quat_is_identity(q) && q.w != 0 && isfinite(q.w))

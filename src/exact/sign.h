@@ -18,13 +18,14 @@
 #include "exact/vectors.h"
 
 /*
- * With unit vectors â, b̂ (within 8u of a/|a|, b/|b|, u = 2^-53: pir_int3_unit) and r within 31u of R (rotation.h),
+ * With unit vectors â, b̂ (within 8u of a/|a|, b/|b|, u = 2^-53: pir_int3_unit) and r within 37u of R where it is
+ * relative, 31u else (rotation.h),
  *
  *     |fl((r·â)·b̂) − (R·a)·b/(|a||b|)| < 64u = 2^-47:
  *
- * r·â is off by 31u from r, 8u from â, and 5.3u from rounding (three products of a row of norm 1 with â, 3.01u a
- * row, over three rows); b̂ brings 8u, the last dot product 3.01u; together below 55.4u, and terms of order u² are
- * far below the rest.
+ * r·â is off by 37u from r, 8u from â, and 5.3u from rounding (three products of a row of norm 1 with â, 3.01u a
+ * row, over three rows); b̂ brings 8u, the last dot product 3.01u; together 61.3u, and below 62u with terms of order
+ * u². tests/proofs/sign.g has the proof for a machine, and others there those of the bounds that rest on this.
  */
 #define PIR_SIGN_BOUND 0x1p-47
 

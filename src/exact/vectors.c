@@ -5,7 +5,7 @@
  * The bound of pir_int3_unit, with u = 2^-53: converting a component errs by 1.001u relative; the sum of squares by
  * 2.01u + 3.01u, its root by half that and another u; the quotient by one more u. Altogether below 1.01u + 3.52u +
  * 1.01u < 6u relative in each component, so below 6u in length. Components below 2^-1000 of the largest may lose more,
- * less than 2^-900 in all. 8u holds both.
+ * less than 2^-900 in all. 8u holds both (tests/proofs/unit.g).
  */
 #include "exact/vectors.h"
 

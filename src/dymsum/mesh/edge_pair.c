@@ -3,8 +3,8 @@
  * Exact signs of d × e for an edge e of P, rotated, and an edge d of Q.
  *
  * Doubles decide first. With unit vectors as in exact/sign.h a component of d × e errs by less than 2^-46, and so does
- * its product with a unit normal, summed up: three vectors that err by at most 45u each, and less than 10u of rounding,
- * u = 2^-53.
+ * its product with a unit normal, summed up: three vectors that err by at most 51u each, and less than 10u of rounding,
+ * below 2^-45, u = 2^-53 (tests/proofs/parallel.g).
  */
 #include "dymsum/mesh/edge_pair.h"
 

@@ -3,7 +3,7 @@
  * P and the triangles near it.
  *
  * Errors, u = 2^-53: each rotation is within 31u of the exact one in Frobenius norm; a point turned by it is off by
- * another 4u of its length, and P's vertices by u, being the nearest doubles; the sum with a translation rounds once.
+ * another 6u of its length, and P's vertices by u, being the nearest doubles; the sum with a translation rounds once.
  * So P's vertices are within 2^-47 of P's radius, and corners of a surface that is moved within 2^-47 of the lengths
  * that they are made of; those of one that is not are exact. Differences are taken from P's translation, beside which
  * the triangles are, so they round by 2^-51 of `size` at most.

@@ -2,9 +2,9 @@
 /*
  * Relative poses of meshes.
  *
- * Errors, u = 2^-53: each rotation is within 31u of the exact one in Frobenius norm, their product so within 70u with
- * its own rounding; a vertex turned by it is off by another 4u of its length; the translation by u for the difference,
- * 31u and 4u for turning it, of the lengths of both. A sum rounds once more. All is below 2^-46 of `size`.
+ * Errors, u = 2^-53: each rotation is within 31u of the exact one in Frobenius norm, their product so within 72u with
+ * its own rounding; a vertex turned by it is off by another 6u of its length; the translation by u for the difference,
+ * 31u and 6u for turning it, of the lengths of both. A sum rounds once more. All is below 2^-46 of `size`.
  */
 #include "mesh/pair/mesh_frame.h"
 

@@ -5,9 +5,9 @@
  * No slack is below what the loops say. Along the normal of a facet it is computed from the numbers that
  * PIR_SLACK_BOUND is proven for (frame.h), and the farthest vertex is no less far than the one that the facet meets.
  *
- * For two edges let c be the cross product of their unit vectors, and σ its length. The vectors are off by 8u and
- * 45u, so c as computed is off by less than 64u, and its length σ' as well. The vertices of P are turned first, which
- * puts them off by 40u of its size, and sums round by 6u. So the slack along c, which is σ times that of the facet, is
+ * For two edges let c be the cross product of their unit vectors, and σ its length. The vectors are off by 6u and
+ * 47u, so c as computed is off by less than 64u, and its length σ' as well. The vertices of P are turned first, which
+ * puts them off by 44u of its size, and sums round by 6u. So the slack along c, which is σ times that of the facet, is
  * known to 110u · reach, less than E, the placement's error of 128u · reach. Let a be its true value and a' the
  * computed one: the loops say (a' − 4 E) / σ'. No slack is above the reach in absolute value.
  *

@@ -163,8 +163,8 @@ static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e,
     uint32_t half = q->edge_half[d];
     pir_vec3 n = pir_vec_cross(q->direction[half], pir_mat_apply(&frame->r, p->direction[p->edge_half[e]]));
     double along = pir_vec_dot(n, normal->unit);
-    // d is off by 8u, e by 45u, their product rounds by 4u, the normal is off by 64u·err, the dot product by 4u:
-    // below 125u·err
+    // d is off by 6u, e by 47u, their product rounds by 4u, the normal is off by 64u·err, the dot product by 4u:
+    // below 125u·err, and 256u·err is more than enough
     if (fabs(along) <= 2 * PIR_SLOPE_BOUND * normal->err) {
         uint32_t mark = exact->scratch.used;
         pir_rotation_make_exact(exact->rotation);

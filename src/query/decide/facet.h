@@ -18,9 +18,9 @@
 #include "query/decide/piece_plane.h"
 
 /*
- * The error of a slope. With u = 2^-53, a unit normal is off by at most 64u·err, and by 37u more once rotated back
- * into P's frame; a unit edge vector is off by 8u; their dot product rounds by 4u. Together that is below 113u·err,
- * and the bound is 128u·err.
+ * The error of a slope. With u = 2^-53, a unit normal is off by at most 64u·err, and by 41u more once rotated back
+ * into P's frame; a unit edge vector is off by 6u; their dot product rounds by 4u. Together that is below 118u·err,
+ * and the bound is 128u·err (tests/proofs/directions.g).
  */
 #define PIR_SLOPE_BOUND 0x1p-46
 

@@ -6,7 +6,8 @@
 
 /*
  * The error of a rate is at most this times the plane's err, with u = 2^-53: 64u·err of the normal, 4u of the line's
- * direction, 24u more where Q is turned, and 4u of rounding are below 96u·err, and the bound is 128u·err.
+ * direction, 37u more where Q is turned, and 4u of rounding are below 115u·err, and the bound is 128u·err
+ * (tests/proofs/directions.g).
  */
 #define RATE_BOUND 0x1p-46
 

@@ -18,7 +18,7 @@
 
 /*
  * The error of m·(y − corner) for a unit m = n × e or m = e is less than twice that of a slack. n is off by
- * 64u·err, e by 45u, their product rounds by 4u: together below PIR_SLACK_BOUND·err, u = 2^-53. What m is multiplied
+ * 64u·err, e by 47u, their product rounds by 4u: together below PIR_SLACK_BOUND·err, u = 2^-53. What m is multiplied
  * with is off by less than PIR_SLACK_BOUND·reach.
  */
 #define PIR_SIDE_ERRORS 2

@@ -24,9 +24,9 @@
  * cap needs no plane and no memory of earlier queries. It is no bound where it is not above zero, because the angle
  * then may be more than half a turn, nor where ρ is a right angle or more.
  *
- * Rounding. w = R a + b − x is off by less than 60u of the reach (frame.h). A normal is off by 8u, and by 45u once
- * rotated. The bound's own arithmetic adds less than 16u of |w|. Together that is below 121u of the reach, which one
- * error, 128u, holds. A second error holds the slack that the bound is compared with.
+ * Rounding. w = R a + b − x is off by less than 48u of the reach. A normal is off by 47u once rotated (frame.h). The
+ * bound's own arithmetic adds less than 16u of |w|. Together that is below 120u of the reach, which one error, 128u,
+ * holds (tests/proofs/bounds.g). A second error holds the slack that the bound is compared with.
  */
 #include "query/depth/bounds.h"
 

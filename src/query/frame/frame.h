@@ -26,14 +26,15 @@
 /*
  * The error of a slack in doubles is at most err · PIR_SLACK_BOUND · (size_p + size_q + |x|).
  *
- * Proof, with u = 2^-53 and sizes r_P, r_Q. A unit normal is off by 8u, and by 45u once rotated: the matrix is off by
- * 31u, the product rounds by 5.3u (exact/sign.h). That moves n·(q − x) by 45u (r_Q + |x|). P's own offset n·p is
- * off by 14u r_P: vertices 3u, normal 8u, dot product 3u. q, x and the last operations add less than 12u (r_P + r_Q +
- * |x|). Together that is below 71u, and the bound is 128u.
+ * Proof, with u = 2^-53 and sizes r_P, r_Q (tests/proofs/slack.g has it for a machine). A unit normal is off by 6u,
+ * and by 47u once rotated: the matrix is off by 35u where it is relative, the product rounds by 5.3u (exact/sign.h).
+ * That moves n·(q − x) by 47u (r_Q + |x|). P's own offset n·p is off by 12u r_P: vertices 3u, normal 6u, dot
+ * product 3u. A vertex of P that is rotated is off by 44u r_P, where the normal is Q's. q, x and the last operations
+ * add less than 12u (r_P + r_Q + |x|). Together that is below 60u, and the bound is 128u.
  *
- * The normal of an edge pair is a cross product of unit vectors off by 8u and 45u. The product rounds by 4u and its
- * scaling by 3u, so the unit normal is off by less than 64u / sin of the edges' angle. `err` is 1 / sin for such
- * planes and 1 for all others. A slack then is off by less than (64 + 12)u · err.
+ * The normal of an edge pair is a cross product of unit vectors off by 6u and 47u. The product rounds by 3u and its
+ * scaling by 5u, so the unit normal is off by less than 64u / sin of the edges' angle. `err` is 1 / sin for such
+ * planes and 1 for all others. A slack then is off by less than (64 + 44 + 8)u · err.
  */
 #define PIR_SLACK_BOUND 0x1p-46
 

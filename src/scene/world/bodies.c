@@ -61,7 +61,7 @@ pir_status pir_place_fail(pir_pose pose, pir_status status, const char *of, pir_
 }
 
 /*
- * A turned vertex is off by 31u |v| by the matrix and by 4u |v| by the product, the vertex itself by u |v|, the sum
+ * A turned vertex is off by 31u |v| by the matrix and by 6u |v| by the product, the vertex itself by u |v|, the sum
  * with the translation by u (|v| + |t|): below 64u (|v| + |t|) with u = 2^-53. Boxes are wider by more than that, and
  * by more than a distance in doubles is off by: where a distance says that two pieces are within radii and margin of
  * each other, their boxes meet.

@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Certificates: answers written as what proves them, for a checker that shares nothing with the library.
+ *
+ * A certificate is a text: one JSON object of integers and rationals, which states the question (both bodies where
+ * they stand, exactly), the answer, and its proof. `check/check.py`, of some 300 lines, reads it with the models and
+ * says "proven" or names the line that fails. docs/proofs.md has the format, and what each proof is:
+ *
+ * - "apart": a plane with P on one side and Q on the other, and the gap.
+ * - "overlap": pairs of vertices with positive weights, not in one plane: a point of both interiors.
+ * - "touching": pairs with weights, a common point, and a plane with P and Q on its sides.
+ * - "distance": pairs with weights, the two nearest points, and that no vertex is on the near side of the planes there.
+ * - "depth": all facets of the difference, each with a plane that supports both bodies, and their edges closed.
+ * - "sum": the same of a sum; "difference": of a difference.
+ *
+ * Every number is found anew, by integers alone. An answer that it contradicts is refused.
+ */
+#ifndef PIROUETTE_CERTIFICATE_H
+#define PIROUETTE_CERTIFICATE_H
+
+#include <pirouette/base.h>
+#include <pirouette/query.h>
+#include <pirouette/sum.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_certificate pir_certificate;
+
+/** The part of an answer that a certificate proves. */
+typedef enum pir_proven {
+    PIR_PROVEN_STATE = 0, /**< its state: "apart", "touching" or "overlap" */
+    PIR_PROVEN_NUMBER,    /**< its state and its distance or depth: "distance", "touching" or "depth" */
+} pir_proven;
+
+/**
+ * The certificate of an answer of pir_query_signed_distance, pir_query_separation, pir_query_penetration or
+ * pir_query_overlap, at the rotation that the query's sum has, with the same input. It lasts without the query. Of the
+ * allocator of the query's sum; its integers are in GMP's memory meanwhile, and GMP ends the process when that runs
+ * out.
+ *
+ * input   where P is; radii must be 0, and a cutoff does not count.
+ * answer  the answer. Its state must be the true one. Its distance must be within 1e-11 of the true one, relative to
+ *         the largest coordinate of bodies and translation, where PIR_PROVEN_NUMBER asks for it and it is no cutoff.
+ * proven  what of it.
+ *
+ * Cost: O(steps · (p + q)) for bodies of p and q vertices, in exact arithmetic. Where the bodies touch or overlap,
+ * O(size of the sum) as well.
+ *
+ * Errors: PIR_ERR_ARGUMENT (NULL, an answer that is not right, radii, a sum that a tolerance lets stay behind),
+ * PIR_ERR_NOT_FINITE, PIR_ERR_REGION, PIR_ERR_LIMIT (as of pir_sum_mesh), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_query_certificate(pir_query *query, const pir_query_input *input, const pir_query_result *answer,
+                                         pir_proven proven, pir_certificate **ret_certificate);
+
+/**
+ * The certificate of a sum or difference, as pir_sum_mesh has it: its vertices as pairs, its facets as cycles of them.
+ * Otherwise as above.
+ *
+ * sum  of dimension 2 or 3.
+ *
+ * Cost: O(size of the sum).
+ *
+ * Errors: as above, and PIR_ERR_ARGUMENT for a sum that is a point or a segment.
+ */
+PIR_API pir_status pir_sum_certificate(pir_sum *sum, pir_certificate **ret_certificate);
+
+/**
+ * The text, with a zero behind its end; valid as long as the certificate.
+ *
+ * ret_length  NULL, or the number of bytes without the zero.
+ *
+ * Cost: O(1).
+ */
+PIR_API const char *pir_certificate_text(const pir_certificate *certificate, size_t *ret_length);
+
+/** Frees a certificate. NULL is accepted. Cost: the time to free it. */
+PIR_API void pir_certificate_destroy(pir_certificate *certificate);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
