@@ -10,7 +10,8 @@
  * depend on the history of the scene; they are in the order of the numbers of bodies and pieces, or of distance or time
  * first.
  *
- * Sensors are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose category is in its mask.
+ * Sensors and disabled bodies are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose
+ * category is in its mask.
  *
  * Threads: a query is a call on the scene, and belongs to its thread.
  *
@@ -36,9 +37,6 @@
 extern "C" {
 #endif
 
-/** The number of no body. */
-#define PIR_SCENE_NONE UINT32_MAX
-
 /** A shape in a place, to be asked about. */
 typedef struct pir_scene_shape {
     pir_polytope *polytope;
@@ -56,6 +54,7 @@ PIR_API pir_scene_shape pir_scene_shape_default(pir_polytope *polytope);
 typedef struct pir_scene_hit {
     uint32_t body, piece;
     pir_state state;
+    uint64_t user, piece_user; /**< the caller's numbers; of a triangle its material */
 } pir_scene_hit;
 
 /**
@@ -75,7 +74,9 @@ PIR_API pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *sh
 /** Two pieces that are near, or a shape, as P with body_p = PIR_SCENE_NONE, and a piece. */
 typedef struct pir_scene_near {
     uint32_t body_p, body_q, piece_p, piece_q;
-    pir_query_result result; /**< as of pir_pair_signed_distance */
+    pir_query_result result;             /**< as of pir_pair_signed_distance */
+    uint64_t user_p, user_q;             /**< the caller's numbers; 0 of a shape */
+    uint64_t piece_user_p, piece_user_q; /**< of a triangle its material */
 } pir_scene_near;
 
 /**
@@ -94,7 +95,8 @@ PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *sh
                                      pir_scene_near *ret_near, size_t *ret_count);
 
 /**
- * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, body_p < body_q.
+ * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, P of the
+ * lower number.
  *
  * cutoff          a distance, finite or HUGE_VAL.
  * most, ret_near  how many are asked for, at least 1, and room for them; *ret_count of them are found and filled.
@@ -124,6 +126,7 @@ typedef struct pir_scene_distance {
     pir_state state;    /**< exact, as of pir_pair_distance */
     double least, most; /**< the distance is between these; both 0 where a point is shared */
     pir_settled settled;
+    uint64_t user, piece_user; /**< the caller's numbers; of a triangle its material */
 } pir_scene_distance;
 
 /**
@@ -257,7 +260,7 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
  * update sees the poses of its frame alone, and what a surface has passed by then, or holds whole, is not in contact
  * with any of its triangles.
  *
- * body               the number of a body that is no sensor.
+ * body               the id of a body that is no sensor.
  * motion, tolerance  as of pir_scene_cast.
  *
  * Cost: that of pir_scene_cast for each of its pieces.

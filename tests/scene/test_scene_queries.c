@@ -142,8 +142,12 @@ static void the_nearest_are_those_of_all_pieces(void **state) {
         for (uint32_t id = 0; id < CROWD_BODIES; id++) {
             const crowd_body *body = crowd_body_of(&c, id);
             for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
-                pir_scene_near one = {PIR_SCENE_NONE, id, 0, k,
-                                      ask_alone(shape.polytope, shape.pose, shape.radius, body, k)};
+                pir_scene_near one = {.body_p = PIR_SCENE_NONE,
+                                      .body_q = id,
+                                      .piece_q = k,
+                                      .result = ask_alone(shape.polytope, shape.pose, shape.radius, body, k),
+                                      .user_q = body->options.user,
+                                      .piece_user_q = 100 + k};
                 if (one.result.distance <= cutoff)
                     insert(all, &expected, &one);
             }
@@ -174,8 +178,16 @@ static void the_closest_pairs_are_those_of_all(void **state) {
                 const crowd_body *p = crowd_body_of(&c, a), *q = crowd_body_of(&c, b);
                 for (uint32_t i = 0; p && q && may_meet(p, q) && i < p->options.piece_count; i++)
                     for (uint32_t k = 0; k < q->options.piece_count; k++) {
-                        pir_scene_near one = {a, b, i, k,
-                                              ask_alone(p->piece[i], p->options.pose, p->options.radius, q, k)};
+                        pir_scene_near one = {.body_p = a,
+                                              .body_q = b,
+                                              .piece_p = i,
+                                              .piece_q = k,
+                                              .result =
+                                                  ask_alone(p->piece[i], p->options.pose, p->options.radius, q, k),
+                                              .user_p = p->options.user,
+                                              .user_q = q->options.user,
+                                              .piece_user_p = 100 + i,
+                                              .piece_user_q = 100 + k};
                         if (one.result.distance <= cutoff)
                             insert(all, &expected, &one);
                     }

@@ -5,6 +5,7 @@
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
+#include "scene/change/changes.h"
 #include "scene/world/grow.h"
 
 /* How many questions are worth another thread. */
@@ -112,6 +113,6 @@ pir_status pir_scene_ask(pir_scene *scene) {
         return PIR_OK;
     const pir_scene_key key = pir_scene_key_of(scene, scene->lists.asked[pir_scene_workers_failed(scene)]);
     return pir_fail(scene->report, status, "update: bodies %u and %u, pieces %u and %u: %s",
-                    (unsigned)(key.bodies >> 32), (unsigned)key.bodies, (unsigned)(key.pieces >> 32),
+                    (unsigned)pir_key_body(key, 0), (unsigned)pir_key_body(key, 1), (unsigned)(key.pieces >> 32),
                     (unsigned)key.pieces, pir_status_text(status));
 }

@@ -30,14 +30,15 @@ static void put_move(pir_scene *scene, uint32_t body, pir_pose pose) {
 static pir_status take_move(pir_scene *scene, const pir_scene_move *move, size_t number) {
     const unsigned long at = (unsigned long)number;
     const unsigned named = move->body;
-    if (!pir_bodies_has(&scene->bodies, move->body))
+    const uint32_t index = pir_bodies_find(&scene->bodies, move->body);
+    if (index == PIR_SCENE_NONE)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: there is no body %u", at, named);
-    const pir_scene_body *body = &scene->bodies.body[move->body];
+    const pir_scene_body *body = &scene->bodies.body[index];
     if (body->kind == PIR_BODY_STATIC)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u is static", at, named);
     if (body->moved == scene->update)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u comes twice", at, named);
-    put_move(scene, move->body, move->pose);
+    put_move(scene, index, move->pose);
     return PIR_OK;
 }
 

@@ -27,7 +27,7 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
                        .radius = shape->radius,
                        .body = PIR_SCENE_NONE,
                        .mask = shape->mask,
-                       .except = shape->except};
+                       .except = pir_bodies_find(&scene->bodies, shape->except)};
     if (!pir_place_box(&place, &probe.extent, shape->radius, &probe.box))
         return pir_fail(scene->report, PIR_ERR_LIMIT, "shape: it reaches beyond 2^60");
     *ret_probe = probe;
@@ -41,13 +41,21 @@ pir_probe pir_probe_of_piece(pir_scene *scene, const pir_scene_piece *p) {
                        .pose = body->pose,
                        .radius = body->radius,
                        .body = p->body,
+                       .piece_user = pir_piece_user(&scene->bodies, p),
                        .except = PIR_SCENE_NONE,
                        .box = p->tight};
 }
 
+void pir_name_impact(const pir_scene *scene, pir_impact *impact) {
+    if (impact->body == PIR_SCENE_NONE)
+        return;
+    impact->user = scene->bodies.body[impact->body].user;
+    impact->body = pir_body_id(&scene->bodies, impact->body);
+}
+
 bool pir_probe_meets(const pir_probe *probe, uint32_t body) {
     const pir_bodies *bodies = &probe->scene->bodies;
-    if (bodies->body[body].sensor)
+    if (bodies->body[body].sensor || bodies->body[body].disabled)
         return false;
     if (probe->body != PIR_SCENE_NONE)
         return pir_bodies_meet(bodies, probe->body, body);

@@ -114,6 +114,7 @@ static pir_status take(struct scene_ray *ray, const pir_scene_piece *piece, cons
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
     const pir_impact impact = {.body = piece->body,
                                .piece_q = piece->number,
+                               .piece_user = pir_piece_user(&ray->scene->bodies, piece),
                                .outcome = entry->inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
                                .time = entry->time,
                                .normal = is_at_origin(&body->pose) ? entry->normal
@@ -222,7 +223,10 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
     *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
     const double from[3] = {world.origin.x, world.origin.y, world.origin.z};
     ray->swept = pir_swept_box_of(from, from, world.way);
-    ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
+    ray->probe = (pir_probe){.scene = scene,
+                             .body = PIR_SCENE_NONE,
+                             .mask = used.mask,
+                             .except = pir_bodies_find(&scene->bodies, used.except)};
     return PIR_OK;
 }
 
@@ -244,9 +248,11 @@ pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32
     ray.take = take_first;
     ray.first = (pir_impact){.body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
     status = search(&ray);
-    if (status == PIR_OK)
-        *ret_impact = ray.first;
-    return status;
+    if (status != PIR_OK)
+        return status;
+    pir_name_impact(scene, &ray.first);
+    *ret_impact = ray.first;
+    return PIR_OK;
 }
 
 static pir_status take_any(struct scene_ray *ray, const pir_impact *impact) {
@@ -297,8 +303,10 @@ pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3 way, co
     status = search(&ray);
     if (status != PIR_OK)
         return status;
-    for (size_t i = 0; i < ray.count && i < capacity; i++)
+    for (size_t i = 0; i < ray.count && i < capacity; i++) {
         ret_impacts[i] = scene->answers.impact[i];
+        pir_name_impact(scene, &ret_impacts[i]);
+    }
     *ret_count = ray.count;
     return PIR_OK;
 }
