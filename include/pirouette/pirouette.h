@@ -7,6 +7,7 @@
 #define PIROUETTE_H
 
 #include <pirouette/base.h>
+#include <pirouette/body_shape.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
 #include <pirouette/history.h>
