@@ -111,6 +111,10 @@ typedef struct pir_scene_options {
     /** Whether the shape of every body that is added is kept, so that a snapshot can make bodies that were removed
         (scene_file.h). pir_scene_forget_shapes drops them. */
     bool keep_shapes;
+    bool profile; /**< whether updates count by which ways pairs are answered (pir_scene_get_profile) */
+    /** NULL, or a clock in nanoseconds, by which updates are told how long their parts take. */
+    uint64_t (*clock)(void *context);
+    void *clock_context;
 } pir_scene_options;
 
 /** malloc's memory, no budget, manifolds, no margin, approach, unions or report, one thread, no shapes kept. O(1). */
@@ -410,6 +414,23 @@ typedef struct pir_scene_statistics {
 
 /** The counters of `scene`. O(1). */
 PIR_API pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene);
+
+/** The work of the last update, part by part. */
+typedef struct pir_scene_profile {
+    uint32_t moved, boxes;            /**< bodies that were brought to poses, and boxes made of their pieces */
+    uint32_t replaced;                /**< pieces that left their boxes in the tree */
+    uint32_t looked, asked;           /**< pairs that were looked at, and those that were asked */
+    uint32_t began, persisted, ended; /**< events of each kind */
+    uint32_t contacts;                /**< of all events */
+    /** With options.profile: how many questions were answered by each way (pir_pair_statistics); 0 without. */
+    uint64_t by_proof, by_walk, by_nearest, by_depth, by_whole, manifolds;
+    /** With options.clock, in nanoseconds: poses and boxes; the tree; pairs found; looks; questions; unions, surfaces
+        among them; events, with what follows them. */
+    uint64_t places_ns, tree_ns, pairs_ns, looks_ns, questions_ns, unions_ns, events_ns;
+} pir_scene_profile;
+
+/** The profile of the last update; of one that failed as far as it came. O(1). */
+PIR_API pir_scene_profile pir_scene_get_profile(const pir_scene *scene);
 
 /** A whole-structure check for tests: true when the tree, the pairs and the bodies agree. O(pairs · degree). */
 PIR_API bool pir_scene_is_valid(const pir_scene *scene);

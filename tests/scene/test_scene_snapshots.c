@@ -364,6 +364,51 @@ static void a_scene_goes_back_over_bodies_that_come_and_go(void **state) {
     print_message("%llu frames gone again\n", (unsigned long long)frames);
 }
 
+/* A scene without bodies that was given the shapes becomes any other; where it has forgotten them it says which. */
+static void a_scene_of_shapes_alone_becomes_another(void **state) {
+    (void)state;
+    pir_polytope *shape[SHAPES];
+    pir_scene *scene, *other;
+    pir_report report = {PIR_OK, ""};
+    make_shapes(3, shape);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &other), PIR_OK);
+    for (uint32_t i = 0; i + 1 < SHAPES; i++)
+        for (uint32_t pieces = 1; pieces < 3; pieces++) {
+            pir_body_options body = pir_body_options_default();
+            body.pieces = &shape[i];
+            body.piece_count = pieces;
+            assert_int_equal(pir_scene_keep(other, &body), PIR_OK);
+            assert_int_equal(pir_scene_keep(other, &body), PIR_OK);
+        }
+    assert_int_equal(pir_scene_keep(other, NULL), PIR_ERR_ARGUMENT);
+    for (int f = 0; f < 12; f++) {
+        struct bytes now = snapshot(scene), again;
+        assert_int_equal(pir_scene_restore(other, now.data, now.size, &report), PIR_OK);
+        assert_true(pir_scene_is_valid(other));
+        again = snapshot(other);
+        assert_true(same_bytes(&now, &again));
+        assert_true(live(scene, shape, 3, f) == live(other, shape, 3, f));
+        free(now.data);
+        free(again.data);
+    }
+    struct bytes now = snapshot(scene), empty;
+    pir_scene_destroy(other);
+    assert_int_equal(pir_scene_create(NULL, &other), PIR_OK);
+    empty = snapshot(other);
+    pir_scene_forget_shapes(other);
+    assert_int_equal(pir_scene_restore(other, now.data, now.size, &report), PIR_ERR_ARGUMENT);
+    assert_non_null(strstr(report.text, "is none of the scene, and its own shape is not kept"));
+    assert_int_equal(pir_scene_restore(scene, empty.data, empty.size, &report), PIR_OK);
+    assert_int_equal(pir_scene_get_statistics(scene).bodies, 0);
+    free(now.data);
+    free(empty.data);
+    pir_scene_destroy(scene);
+    pir_scene_destroy(other);
+    for (uint32_t i = 0; i < SHAPES; i++)
+        pir_polytope_release(shape[i]);
+}
+
 /* Memory that fails at any request of a restore which makes and drops bodies changes nothing. */
 static void bodies_stay_where_memory_fails(void **state) {
     (void)state;
@@ -422,6 +467,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_snapshot_of_the_scene_is_refused),
         cmocka_unit_test(memory_that_fails_leaves_the_scene_as_it_was),
         cmocka_unit_test(a_scene_goes_back_over_bodies_that_come_and_go),
+        cmocka_unit_test(a_scene_of_shapes_alone_becomes_another),
         cmocka_unit_test(bodies_stay_where_memory_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -78,6 +78,9 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     scene->approach = used.approach;
     scene->unions = used.unions;
     scene->keep_shapes = used.keep_shapes;
+    scene->profiles = used.profile;
+    scene->clock = used.clock;
+    scene->clock_context = used.clock_context;
     scene->report = used.report;
     pir_bodies_init(&scene->bodies);
     pir_scene_pairs_init(&scene->pairs);
@@ -297,6 +300,10 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
 const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count) {
     *ret_count = scene->event_count;
     return scene->event_count > 0 ? scene->event : NULL;
+}
+
+pir_scene_profile pir_scene_get_profile(const pir_scene *scene) {
+    return scene->profile;
 }
 
 pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene) {

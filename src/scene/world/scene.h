@@ -58,7 +58,8 @@ typedef struct pir_scene_worker {
     pir_surface_contact *met;
     const pir_polytope **beside; /* the pieces next to the one that is asked */
     uint32_t surface_capacity, met_capacity, beside_capacity;
-    pir_status status; /* of the item with the least number that failed, in this batch of work */
+    pir_pair_statistics ways; /* of its questions, where they are counted */
+    pir_status status;        /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
 
@@ -178,6 +179,11 @@ struct pir_scene {
     uint32_t gone_capacity, gone_count, touching;
 
     uint64_t update, visit; /* numbers of the last ones */
+    bool profiles;
+    uint64_t (*clock)(void *context); /* or NULL */
+    void *clock_context;
+    uint64_t part_began; /* by the clock */
+    pir_scene_profile profile;
     pir_scene_lists lists;
     pir_scene_target target;
     pir_scene_event *event;
