@@ -15,9 +15,10 @@ typedef struct pir_probe {
     pir_extent extent;
     pir_pose pose;
     double radius;
-    uint32_t body;         /* of the scene, whose rules hold then; or PIR_SCENE_NONE */
-    uint32_t mask, except; /* the latter a number, or PIR_SCENE_NONE */
-    uint64_t piece_user;   /* of the piece */
+    uint32_t body;                  /* of the scene, whose rules hold then; or PIR_SCENE_NONE */
+    uint32_t mask, except;          /* the latter a number, or PIR_SCENE_NONE */
+    uint64_t piece_user;            /* of the piece */
+    const pir_query_filter *filter; /* the caller's, or NULL */
     pir_box box;
 } pir_probe;
 
