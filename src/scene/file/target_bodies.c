@@ -361,20 +361,28 @@ static void read_users(pir_scene *scene, const pir_snapshot *snapshot) {
     }
 }
 
+/* Puts the bodies that go into their places again, and keeps those that came, or the reverse. */
+static void exchange_bodies(pir_scene *scene) {
+    for (uint32_t i = 0; i < scene->target.away_count; i++) {
+        pir_scene_away *away = &scene->target.away[i];
+        const pir_scene_body kept = away->body;
+        away->body = scene->bodies.body[away->number];
+        scene->bodies.body[away->number] = kept;
+    }
+}
+
 void pir_target_commit(pir_scene *scene, const pir_snapshot *snapshot) {
     pir_scene_target *target = &scene->target;
     pir_bodies *bodies = &scene->bodies;
-    for (uint32_t i = 0; i < target->away_count; i++) {
-        const pir_scene_away *away = &target->away[i];
-        if (!away->body.used)
-            continue;
-        // its pieces know it by its number
-        const pir_scene_body made = bodies->body[away->number];
-        bodies->body[away->number] = away->body;
-        pir_scene_end_pairs(scene, away->number, true);
-        pir_bodies_empty(bodies, away->number);
-        bodies->body[away->number] = made;
-    }
+    // pieces know their bodies by numbers, and a triangle that goes is taken off the list of its body
+    exchange_bodies(scene);
+    for (uint32_t i = 0; i < target->away_count; i++)
+        if (bodies->body[target->away[i].number].used)
+            pir_scene_end_pairs(scene, target->away[i].number, true);
+    for (uint32_t i = 0; i < target->away_count; i++)
+        if (bodies->body[target->away[i].number].used)
+            pir_bodies_empty(bodies, target->away[i].number);
+    exchange_bodies(scene);
     for (uint32_t i = 0; i < target->changed_count; i++)
         pir_scene_end_pairs(scene, target->changed[i].number, false);
     for (uint32_t n = 0; n < bodies->body_slots; n++)
