@@ -138,7 +138,7 @@ PIR_API pir_status pir_history_scene(pir_history *history, const pir_scene_optio
 /**
  * Notes pir_scene_add.
  *
- * body  as it was given; its coarse bodies, on which no event depends, are left out.
+ * body  as it was given; its coarse bodies and users, on which no event depends but that it tells these, are left out.
  *
  * Cost: O(size of its pieces).
  *
@@ -149,13 +149,46 @@ PIR_API pir_status pir_history_add(pir_history *history, const pir_body_options 
 /**
  * Notes pir_scene_remove.
  *
- * body  the number of the body.
+ * body  the id of the body.
  *
  * Cost: O(1).
  *
  * Errors: PIR_ERR_ARGUMENT (not of a scene), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_history_remove(pir_history *history, uint32_t body);
+
+/**
+ * Notes pir_scene_set_filter.
+ *
+ * body, category, mask  as they were given.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT (not of a scene), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_history_filter(pir_history *history, uint32_t body, uint32_t category, uint32_t mask);
+
+/**
+ * Notes pir_scene_set_sensor.
+ *
+ * body, sensor  as they were given.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT (not of a scene), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_history_sensor(pir_history *history, uint32_t body, bool sensor);
+
+/**
+ * Notes pir_scene_set_disabled.
+ *
+ * body, disabled  as they were given.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT (not of a scene), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_history_disabled(pir_history *history, uint32_t body, bool disabled);
 
 /**
  * Notes pir_scene_update.

@@ -43,6 +43,19 @@ typedef struct pir_mass {
 PIR_API pir_status pir_polytope_mass(const pir_polytope *polytope, pir_mass *ret_mass);
 
 /**
+ * The mass of the polytope grown by a ball of a radius, as bodies with rounding radii are: of a segment that of a
+ * capsule, of a point that of a ball. In doubles, within about 1e-13 of the sizes.
+ *
+ * radius  ≥ 0; with 0 it is pir_polytope_mass.
+ *
+ * Cost: O(n) besides that of pir_polytope_mass.
+ *
+ * Errors: PIR_ERR_ARGUMENT (a radius below 0 or infinite), PIR_ERR_NOT_FINITE (the radius), PIR_ERR_LIMIT (a number
+ * beyond the largest double, or a volume below the least).
+ */
+PIR_API pir_status pir_polytope_rounded_mass(const pir_polytope *polytope, double radius, pir_mass *ret_mass);
+
+/**
  * The mass of several bodies taken as one, in doubles: volumes are added, so where two of them overlap the shared part
  * counts twice. The centroid of bodies that are all flat is the mean of theirs.
  *

@@ -47,6 +47,7 @@ typedef struct pir_impact {
     uint32_t body;             /**< of a scene, the one that is met: PIR_SCENE_NONE where none is; else 0 */
     uint32_t piece_p, piece_q; /**< that meet, of solids and scenes; 0 of sums and pairs */
     uint32_t steps;            /**< of the search, on sums and pairs; it may depend on what was asked before */
+    uint64_t user, piece_user; /**< of scenes, the caller's numbers for what is met; of a triangle its material */
 } pir_impact;
 
 #ifdef __cplusplus

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * All of libpirouette but exact.h, which shows GMP types. The libraries beside it have headers of their own: cspace.h
- * and grid.h are libpirouette-cspace's, ccd.h is libpirouette-ccd's.
+ * All of libpirouette but exact.h, which shows GMP types, and cglm.h, which shows those of cglm. The libraries beside
+ * it have headers of their own: cspace.h and grid.h are libpirouette-cspace's, ccd.h is libpirouette-ccd's.
  */
 #ifndef PIROUETTE_H
 #define PIROUETTE_H
 
 #include <pirouette/base.h>
+#include <pirouette/body_shape.h>
 #include <pirouette/certificate.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
@@ -24,6 +25,7 @@
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 #include <pirouette/scene.h>
+#include <pirouette/scene_draw.h>
 #include <pirouette/scene_file.h>
 #include <pirouette/scene_query.h>
 #include <pirouette/section.h>

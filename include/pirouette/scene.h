@@ -27,12 +27,17 @@
  * that asks are left out as well. An event then has the contacts of one normal with one piece; one whose contacts are
  * all ghosts has none. Without it each two pieces have the contacts of their pair, whatever is beside them.
  *
- * A pair needs one moving body, two bodies, and masks that match both ways: the category of each is in the mask of the
- * other. A sensor is told of what overlaps it, and has no contacts. Two sensors do not meet.
+ * A pair needs two bodies, one of them moving, and masks that match both ways: the category of each is in the mask of
+ * the other. A sensor is told of what overlaps it, and has no contacts: of kinematic bodies too, whatever its own kind.
+ * Two sensors do not meet, nor do two surfaces.
+ *
+ * A body is known by an id: its number, which tells it from the others that are there, and a generation, which tells it
+ * from bodies that had the number before. An id of a body that was removed is refused, also when its number has been
+ * given again. Numbers are small, so they may index arrays of the caller (pir_body_number).
  *
  * Determinism: events, their order and all their numbers depend on the poses, on the bodies and on which pieces were in
  * contact before: not on threads, the history of the scene, nor the machine. Events are in the order of body_p, body_q,
- * piece_p, piece_q.
+ * piece_p, piece_q: of bodies by number, of one number by generation.
  *
  * Frame: the world. Lengths in the unit of the polytopes' coordinates.
  *
@@ -67,6 +72,9 @@ extern "C" {
 
 typedef struct pir_scene pir_scene;
 
+/** The id of no body. */
+#define PIR_SCENE_NONE UINT32_MAX
+
 /** The detail that a scene computes of pieces in contact. */
 typedef enum pir_scene_detail {
     PIR_SCENE_STATES = 0, /**< that they are; no numbers */
@@ -89,9 +97,16 @@ typedef struct pir_scene_options {
      * It is the caller's, and outlives the scene.
      */
     pir_report *report;
+    /** Whether the shape of every body that is added is kept, so that a snapshot can make bodies that were removed
+        (scene_file.h). pir_scene_forget_shapes drops them. */
+    bool keep_shapes;
+    bool profile; /**< whether updates count by which ways pairs are answered (pir_scene_get_profile) */
+    /** NULL, or a clock in nanoseconds, by which updates are told how long their parts take. */
+    uint64_t (*clock)(void *context);
+    void *clock_context;
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, no approach, no unions, one thread, no report. O(1). */
+/** malloc's memory, no budget, manifolds, no margin, approach, unions or report, one thread, no shapes kept. O(1). */
 static inline pir_scene_options pir_scene_options_default(void) {
     pir_scene_options options;
     memset(&options, 0, sizeof options);
@@ -137,6 +152,9 @@ typedef struct pir_body_options {
     double radius;           /**< the rounding radius, ≥ 0 */
     uint32_t category, mask; /**< bits: of what the body is; of what it meets */
     bool sensor;
+    bool disabled;               /**< whether it begins disabled: it meets nothing, and no query sees it */
+    uint64_t user;               /**< a number of the caller's, which events and hits tell; a pointer fits in */
+    const uint64_t *piece_users; /**< one for each piece, or NULL for 0; a triangle has its material */
 } pir_body_options;
 
 /**
@@ -154,8 +172,8 @@ static inline pir_body_options pir_body_options_default(void) {
 }
 
 /**
- * Adds a body, and gives its number: the least that is free. Its contacts begin with the next update. At most 2^20
- * bodies.
+ * Adds a body, and gives its id: the least number that is free, in a generation that it never had. Its contacts begin
+ * with the next update. At most 2^20 bodies; a number is given 4,095 times, then no more.
  *
  * body  its pieces and their coarse bodies, or its surface, are referenced; the rest is copied.
  *
@@ -170,10 +188,10 @@ static inline pir_body_options pir_body_options_default(void) {
 PIR_API pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body);
 
 /**
- * Removes a body. Its contacts are gone without an event. Events of the last update still name it until the next one,
- * and the next body that is added may get its number: go through the events first, or drop those that name it.
+ * Removes a body. The next update tells that its contacts ended, with the id that it had. Events of the last update
+ * stay as they are; ids in them that name it are refused from now on.
  *
- * body  the number of a body of the scene.
+ * body  the id of a body of the scene.
  *
  * Cost: O(pieces · log n + pairs that it is in).
  *
@@ -184,13 +202,125 @@ PIR_API pir_status pir_scene_remove(pir_scene *scene, uint32_t body);
 /**
  * Where a body is: after the last update, or as it was added.
  *
- * body  the number of a body of the scene.
+ * body  the id of a body of the scene.
  *
  * Cost: O(1).
  *
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose);
+
+/** The number in an id: below 2^20, and of bodies that are in a scene at once each has another. O(1). */
+static inline uint32_t pir_body_number(uint32_t body) {
+    return body & 0xfffff;
+}
+
+/** Whether a body with that id is in the scene. O(1). */
+PIR_API bool pir_scene_has(const pir_scene *scene, uint32_t body);
+
+/**
+ * The body of the next greater number, the first one for PIR_SCENE_NONE; PIR_SCENE_NONE behind the last. The id need
+ * not be of a body that is there: one may be removed on the way. O(1), but for numbers that are free.
+ */
+PIR_API uint32_t pir_scene_next(const pir_scene *scene, uint32_t body);
+
+/** All that a scene knows of a body. */
+typedef struct pir_body_state {
+    pir_body_kind kind;
+    pir_pose pose;
+    double radius;
+    uint32_t piece_count; /**< 0 of a surface */
+    pir_trimesh *mesh;    /**< borrowed, or NULL */
+    pir_height_field *field;
+    uint32_t category, mask;
+    bool sensor, disabled;
+    uint64_t user;
+} pir_body_state;
+
+/**
+ * The state of a body.
+ *
+ * body  the id of a body of the scene.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_get_body(const pir_scene *scene, uint32_t body, pir_body_state *ret_state);
+
+/**
+ * A convex piece of a body.
+ *
+ * body, piece   the id of a body of the scene that has no surface, and the number of a piece of it.
+ * ret_polytope  borrowed, for as long as the body is there; NULL where it is not wanted.
+ * ret_user      the number of the caller's; NULL where it is not wanted.
+ *
+ * Cost: O(pieces).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_get_piece(const pir_scene *scene, uint32_t body, uint32_t piece,
+                                       pir_polytope **ret_polytope, uint64_t *ret_user);
+
+/* --- bodies that change --- */
+
+/**
+ * Gives a body another number of the caller's. Events of the next update tell it.
+ *
+ * body  the id of a body of the scene.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_set_user(pir_scene *scene, uint32_t body, uint64_t user);
+
+/**
+ * Gives a piece of a body another number of the caller's.
+ *
+ * body, piece  as of pir_scene_get_piece.
+ *
+ * Cost: O(pieces).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_scene_set_piece_user(pir_scene *scene, uint32_t body, uint32_t piece, uint64_t user);
+
+/**
+ * Changes what a body is and what it meets. Contacts with bodies that it no longer meets have ended, and the next
+ * update tells so; in that update the body counts as moved. So do all changes below.
+ *
+ * body            the id of a body of the scene.
+ * category, mask  as of pir_body_options.
+ *
+ * Cost: O(pairs that it is in); the next update finds its pairs anew.
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_scene_set_filter(pir_scene *scene, uint32_t body, uint32_t category, uint32_t mask);
+
+/**
+ * Makes a body a sensor, or no sensor any more.
+ *
+ * body  the id of a body of the scene.
+ *
+ * Cost: as of pir_scene_set_filter.
+ *
+ * Errors: as of pir_scene_set_filter.
+ */
+PIR_API pir_status pir_scene_set_sensor(pir_scene *scene, uint32_t body, bool sensor);
+
+/**
+ * Disables a body, or enables it again. A disabled one keeps its id and may be moved, meets nothing, and is not seen by
+ * queries.
+ *
+ * body  the id of a body of the scene.
+ *
+ * Cost: as of pir_scene_set_filter.
+ *
+ * Errors: as of pir_scene_set_filter.
+ */
+PIR_API pir_status pir_scene_set_disabled(pir_scene *scene, uint32_t body, bool disabled);
 
 /* --- updates and events --- */
 
@@ -202,8 +332,8 @@ typedef struct pir_scene_move {
 
 /**
  * Brings bodies to new poses, and makes the list of events: for all contacts of bodies that are in `moves` or were
- * added since the last update. Contacts between others are as they were, and have no event. The list before is gone,
- * also where the call fails.
+ * added or changed since the last update, and of removed ones those that they had. Contacts between others are as they
+ * were, and have no event. The list before is gone, also where the call fails.
  *
  * moves, count  in any order, a body once, none of them static; a body that stays may be in it.
  *
@@ -220,7 +350,7 @@ PIR_API pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *move
 typedef enum pir_event_kind {
     PIR_EVENT_BEGAN = 0, /**< they are in contact, and were not before */
     PIR_EVENT_PERSISTED, /**< they are, and were */
-    PIR_EVENT_ENDED,     /**< they are not any more; only the numbers of bodies and pieces are set */
+    PIR_EVENT_ENDED,     /**< they are not any more, or a body was removed; only ids, numbers and users are set */
 } pir_event_kind;
 
 /**
@@ -234,9 +364,11 @@ typedef enum pir_event_kind {
  */
 typedef struct pir_scene_event {
     pir_event_kind kind;
-    uint32_t body_p, body_q;   /**< body_p < body_q */
-    uint32_t piece_p, piece_q; /**< of the bodies' own */
-    bool sensor;               /**< whether one of the bodies is a sensor */
+    uint32_t body_p, body_q;             /**< ids; the number of body_p is the lower one */
+    uint32_t piece_p, piece_q;           /**< of the bodies' own */
+    uint64_t user_p, user_q;             /**< the caller's numbers for the bodies */
+    uint64_t piece_user_p, piece_user_q; /**< and for the pieces; of a triangle its material */
+    bool sensor;                         /**< whether one of the bodies is a sensor */
     pir_state state;
     /** Signed, as of pir_pair_signed_distance; in a union that of the deepest contact, or without contacts that of the
         two pieces alone. */
@@ -252,8 +384,8 @@ typedef struct pir_scene_event {
 } pir_scene_event;
 
 /**
- * The events of the last update, until the next one, or NULL where there are none; the scene owns them. Numbers of
- * bodies are those of that update: where a body was removed since, its number is none, or another body's. O(1).
+ * The events of the last update, until the next one, or NULL where there are none; the scene owns them. Bodies may be
+ * added, changed and removed while they are read: the id of one that was removed is refused. O(1).
  */
 PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
 
@@ -271,6 +403,23 @@ typedef struct pir_scene_statistics {
 
 /** The counters of `scene`. O(1). */
 PIR_API pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene);
+
+/** The work of the last update, part by part. */
+typedef struct pir_scene_profile {
+    uint32_t moved, boxes;            /**< bodies that were brought to poses, and boxes made of their pieces */
+    uint32_t replaced;                /**< pieces that left their boxes in the tree */
+    uint32_t looked, asked;           /**< pairs that were looked at, and those that were asked */
+    uint32_t began, persisted, ended; /**< events of each kind */
+    uint32_t contacts;                /**< of all events */
+    /** With options.profile: how many questions were answered by each way (pir_pair_statistics); 0 without. */
+    uint64_t by_proof, by_walk, by_nearest, by_depth, by_whole, manifolds;
+    /** With options.clock, in nanoseconds: poses and boxes; the tree; pairs found; looks; questions; unions, surfaces
+        among them; events, with what follows them. */
+    uint64_t places_ns, tree_ns, pairs_ns, looks_ns, questions_ns, unions_ns, events_ns;
+} pir_scene_profile;
+
+/** The profile of the last update; of one that failed as far as it came. O(1). */
+PIR_API pir_scene_profile pir_scene_get_profile(const pir_scene *scene);
 
 /** A whole-structure check for tests: true when the tree, the pairs and the bodies agree. O(pairs · degree). */
 PIR_API bool pir_scene_is_valid(const pir_scene *scene);

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /**
- * Snapshots of scenes: where all bodies are, and what is in contact, in bytes. A game that rolls back restores one and
- * goes on; the updates after it give the events that they gave before, bit for bit.
+ * Snapshots of scenes: which bodies there are, where they are, and what is in contact, in bytes. A game that rolls back
+ * restores one and goes on; the updates after it give the events that they gave before, bit for bit, and bodies that
+ * are added get the ids that they got before.
  *
- * A snapshot does not hold polytopes. It is restored into a scene with the same bodies under the same numbers: the one
- * that it was taken of, or one to which the same bodies were added. Bytes are the same on every machine, and two scenes
- * in one state have the same bytes, whatever their history: a hash of them is a hash of the state.
+ * A snapshot names the shape of a body, its pieces or its surface, by a hash of the content. A restore drops bodies
+ * that the snapshot does not have, and makes those that the scene lacks, of shapes that it keeps (keep_shapes of
+ * pir_scene_options, pir_scene_keep) or of another body. Bytes are the same on every machine, and two scenes in one
+ * state have the same bytes, whatever their history: a hash of them is a hash of the state. Ids are of the state.
  *
  * Threads: as of the scene.
  */
@@ -23,7 +25,7 @@ extern "C" {
 PIR_API size_t pir_scene_serialised_size(const pir_scene *scene);
 
 /**
- * Writes poses and contacts, with a version and a checksum.
+ * Writes bodies, poses and contacts, with a version and a checksum.
  *
  * memory, size  the caller's, of exactly pir_scene_serialised_size bytes.
  *
@@ -38,19 +40,34 @@ PIR_API pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t si
  * update. Contacts that they claim are only what the next update compares with. The list of events is empty afterwards,
  * also where the call fails.
  *
- * Bodies of the scene have to have the numbers, the kinds and the counts of pieces that they had, and a surface the
- * same content. All else of them is not in the bytes and not checked: polytopes, radii, categories, masks and sensors.
- * Where these differ, the updates afterwards do too.
+ * A body of the scene stays where it has the id, the kind, the radius and the shape of one of the snapshot; poses,
+ * categories, masks, users, and whether it is a sensor or disabled, become what they were. Others are dropped without
+ * events. A surface does not take the place of another one under the same number. A scene with other options, such as a
+ * margin, gives other events.
  *
  * data, size  the bytes, which may come from anyone.
  * report      filled with what, where and why; NULL for the report of the scene, where it has one.
  *
- * Cost: that of an update of all bodies without the queries of pairs.
+ * Cost: O(bodies + contacts), and of bodies whose poses differ that of an update without the queries of pairs.
  *
- * Errors: PIR_ERR_ARGUMENT (the scene has other bodies), PIR_ERR_FORMAT, PIR_ERR_VERSION,
+ * Errors: PIR_ERR_ARGUMENT (a body whose shape is not known, told by its id), PIR_ERR_FORMAT, PIR_ERR_VERSION,
  * PIR_ERR_MEMORY. The scene is then as it was.
  */
 PIR_API pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pir_report *report);
+
+/**
+ * Keeps the shape of a body without adding one, so that a snapshot of another scene can be restored.
+ *
+ * body  as of pir_scene_add; only its pieces, coarse bodies or surface count, and are referenced.
+ *
+ * Cost: O(vertices of the pieces, or triangles).
+ *
+ * Errors: as of pir_scene_add.
+ */
+PIR_API pir_status pir_scene_keep(pir_scene *scene, const pir_body_options *body);
+
+/** Drops all shapes that a scene keeps; those of its bodies stay known for as long as they are there. O(shapes). */
+PIR_API void pir_scene_forget_shapes(pir_scene *scene);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,8 @@
  * depend on the history of the scene; they are in the order of the numbers of bodies and pieces, or of distance or time
  * first.
  *
- * Sensors are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose category is in its mask.
+ * Sensors and disabled bodies are not seen. Two bodies meet as scene.h says; a shape or a ray meets bodies whose
+ * category is in its mask.
  *
  * Threads: a query is a call on the scene, and belongs to its thread.
  *
@@ -36,17 +37,24 @@
 extern "C" {
 #endif
 
-/** The number of no body. */
-#define PIR_SCENE_NONE UINT32_MAX
+/** The bodies that a query leaves out, besides those that its mask does. */
+typedef struct pir_query_filter {
+    const uint32_t *ignored; /**< ids, borrowed for the call; NULL where there are none */
+    size_t ignored_count;
+    /** NULL, or whether a body counts; it may be called more than once for one, and must not call the scene. */
+    bool (*counts)(void *context, uint32_t body, uint64_t user);
+    void *context;
+} pir_query_filter;
 
 /** A shape in a place, to be asked about. */
 typedef struct pir_scene_shape {
     pir_polytope *polytope;
     pir_pose pose;
-    double radius;      /**< its rounding radius, ≥ 0 */
-    uint32_t mask;      /**< the categories of bodies that it meets */
-    uint32_t except;    /**< a body that it does not meet, or PIR_SCENE_NONE */
-    pir_coarse *coarse; /**< the coarse bodies of `polytope`, or NULL */
+    double radius;                  /**< its rounding radius, ≥ 0 */
+    uint32_t mask;                  /**< the categories of bodies that it meets */
+    uint32_t except;                /**< a body that it does not meet, or PIR_SCENE_NONE */
+    pir_coarse *coarse;             /**< the coarse bodies of `polytope`, or NULL */
+    const pir_query_filter *filter; /**< or NULL */
 } pir_scene_shape;
 
 /** `polytope` at the origin, not turned, with all in its mask. O(1). */
@@ -56,6 +64,7 @@ PIR_API pir_scene_shape pir_scene_shape_default(pir_polytope *polytope);
 typedef struct pir_scene_hit {
     uint32_t body, piece;
     pir_state state;
+    uint64_t user, piece_user; /**< the caller's numbers; of a triangle its material */
 } pir_scene_hit;
 
 /**
@@ -75,7 +84,9 @@ PIR_API pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *sh
 /** Two pieces that are near, or a shape, as P with body_p = PIR_SCENE_NONE, and a piece. */
 typedef struct pir_scene_near {
     uint32_t body_p, body_q, piece_p, piece_q;
-    pir_query_result result; /**< as of pir_pair_signed_distance */
+    pir_query_result result;             /**< as of pir_pair_signed_distance */
+    uint64_t user_p, user_q;             /**< the caller's numbers; 0 of a shape */
+    uint64_t piece_user_p, piece_user_q; /**< of a triangle its material */
 } pir_scene_near;
 
 /**
@@ -94,7 +105,8 @@ PIR_API pir_status pir_scene_nearest(pir_scene *scene, const pir_scene_shape *sh
                                      pir_scene_near *ret_near, size_t *ret_count);
 
 /**
- * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, body_p < body_q.
+ * The closest pairs of pieces of different bodies that may meet, in the order of pir_scene_nearest, P of the
+ * lower number.
  *
  * cutoff          a distance, finite or HUGE_VAL.
  * most, ret_near  how many are asked for, at least 1, and room for them; *ret_count of them are found and filled.
@@ -124,6 +136,7 @@ typedef struct pir_scene_distance {
     pir_state state;    /**< exact, as of pir_pair_distance */
     double least, most; /**< the distance is between these; both 0 where a point is shared */
     pir_settled settled;
+    uint64_t user, piece_user; /**< the caller's numbers; of a triangle its material */
 } pir_scene_distance;
 
 /**
@@ -183,14 +196,51 @@ typedef struct pir_scene_ray_options {
     uint32_t mask;       /**< the categories of bodies that it meets */
     uint32_t except;     /**< a body that it does not meet, or PIR_SCENE_NONE */
     pir_ray_sides sides; /**< from which side it meets triangles of surfaces that have no radius */
+    double radius; /**< ≥ 0: of a ball that goes along the segment in place of a point; surfaces have no sides then */
+    const pir_query_filter *filter; /**< or NULL */
 } pir_scene_ray_options;
 
-/** All in the mask, no body left out, triangles as their surfaces say. O(1). */
+/** All in the mask, no body left out, triangles as their surfaces say, no radius, no filter. O(1). */
 static inline pir_scene_ray_options pir_scene_ray_options_default(void) {
-    const pir_scene_ray_options options = {sizeof(pir_scene_ray_options), UINT32_MAX, PIR_SCENE_NONE,
-                                           PIR_RAY_AS_SURFACE};
+    const pir_scene_ray_options options = {
+        sizeof(pir_scene_ray_options), UINT32_MAX, PIR_SCENE_NONE, PIR_RAY_AS_SURFACE, 0, NULL};
     return options;
 }
+
+/**
+ * The first hit of the segment, or of a ball that goes along it: pir_scene_ray with options.
+ *
+ * A ball is asked about as a point is, of bodies that are grown by its radius, in closed form and without a tolerance:
+ * the time is that at which its centre comes to the grown body, the point is where it touches.
+ *
+ * origin, way  as of pir_scene_ray.
+ * options      or NULL for the defaults.
+ *
+ * Cost: as of pir_scene_ray; with a radius O(facets + edges) for each box that is met.
+ *
+ * Errors: those of a query of a scene; PIR_ERR_ARGUMENT also for a radius below 0 or infinite.
+ */
+PIR_API pir_status pir_scene_ray_first(pir_scene *scene, pir_vec3 origin, pir_vec3 way,
+                                       const pir_scene_ray_options *options, pir_impact *ret_impact);
+
+/** A segment from an origin along a way. */
+typedef struct pir_scene_segment {
+    pir_vec3 origin, way;
+} pir_scene_segment;
+
+/**
+ * pir_scene_ray_first for many segments, with the options read once.
+ *
+ * segments, count  borrowed for the call; with 0 of them nothing is done.
+ * options          or NULL for the defaults.
+ * ret_impacts      room for `count`. Where the call fails none is written.
+ *
+ * Cost: that of each ray.
+ *
+ * Errors: those of the first that fails.
+ */
+PIR_API pir_status pir_scene_ray_batch(pir_scene *scene, const pir_scene_segment *segments, size_t count,
+                                       const pir_scene_ray_options *options, pir_impact *ret_impacts);
 
 /**
  * Whether the segment hits any piece or triangle at all; it stops at the first that is found.
@@ -257,7 +307,7 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
  * update sees the poses of its frame alone, and what a surface has passed by then, or holds whole, is not in contact
  * with any of its triangles.
  *
- * body               the number of a body that is no sensor.
+ * body               the id of a body that is no sensor.
  * motion, tolerance  as of pir_scene_cast.
  *
  * Cost: that of pir_scene_cast for each of its pieces.

@@ -14,8 +14,10 @@
  *     pair       u32 p, q; u8 least, most
  *     ask        f64 rotation[4], translation[3] of P, of Q; radius_p, radius_q, cutoff, margin
  *     scene      u8 detail, approach + 2 · unions; f64 margin
- *     add        u8 kind, sensor; u32 category, mask; f64 radius, rotation[4], translation[3]; u32 count, pieces
+ *     add        u8 kind, sensor + 2 · disabled; u32 category, mask; f64 radius, rotation[4], translation[3];
+ *                u32 count, pieces
  *     remove     u32 body
+ *     change     u32 body; u8 of what: 0 filter, 1 sensor, 2 disabled; u32 value[2]: category and mask, or 0 or 1 and 0
  *     update     u32 count; for each u32 body, f64 rotation[4], translation[3]
  *
  * A body stands before the note that first names it. The first note but bodies is sum, pair or scene.
@@ -25,7 +27,7 @@
 
 #include <stdint.h>
 
-#define PIR_HISTORY_VERSION 1u
+#define PIR_HISTORY_VERSION 2u
 
 #define PIR_HISTORY_HEADER      32
 #define PIR_HISTORY_SIZE_AT     16
@@ -54,7 +56,15 @@ typedef enum pir_note {
     PIR_NOTE_ADD,
     PIR_NOTE_REMOVE,
     PIR_NOTE_UPDATE,
+    PIR_NOTE_CHANGE,
     PIR_NOTE_COUNT,
 } pir_note;
+
+/* The property that a note of a change is of. */
+typedef enum pir_note_change {
+    PIR_CHANGE_FILTER = 0,
+    PIR_CHANGE_SENSOR,
+    PIR_CHANGE_DISABLED,
+} pir_note_change;
 
 #endif

@@ -254,7 +254,7 @@ static pir_status add(pir_history *history, const pir_body_options *body) {
     if (status != PIR_OK)
         return status;
     put(history, (uint64_t)body->kind, 1);
-    put(history, body->sensor != 0, 1);
+    put(history, (body->sensor ? 1u : 0u) | (body->disabled ? 2u : 0u), 1);
     put(history, body->category, 4);
     put(history, body->mask, 4);
     put_double(history, body->radius);
@@ -278,6 +278,30 @@ pir_status pir_history_remove(pir_history *history, uint32_t body) {
     if (status == PIR_OK)
         put(history, body, 4);
     return status;
+}
+
+static pir_status note_change(pir_history *history, uint32_t body, pir_note_change what, uint32_t value,
+                              uint32_t other) {
+    const pir_status status = begin(history, PIR_NOTE_CHANGE, PIR_NOTE_SCENE, 0);
+    if (status != PIR_OK)
+        return status;
+    put(history, body, 4);
+    put(history, (uint64_t)what, 1);
+    put(history, value, 4);
+    put(history, other, 4);
+    return PIR_OK;
+}
+
+pir_status pir_history_filter(pir_history *history, uint32_t body, uint32_t category, uint32_t mask) {
+    return note_change(history, body, PIR_CHANGE_FILTER, category, mask);
+}
+
+pir_status pir_history_sensor(pir_history *history, uint32_t body, bool sensor) {
+    return note_change(history, body, PIR_CHANGE_SENSOR, sensor, 0);
+}
+
+pir_status pir_history_disabled(pir_history *history, uint32_t body, bool disabled) {
+    return note_change(history, body, PIR_CHANGE_DISABLED, disabled, 0);
 }
 
 pir_status pir_history_update(pir_history *history, const pir_scene_move *moves, size_t count) {

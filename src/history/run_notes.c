@@ -187,6 +187,7 @@ static const struct note_call {
     [PIR_NOTE_ADD] = {"add", pir_replay_add, PIR_NOTE_SCENE},
     [PIR_NOTE_REMOVE] = {"remove", pir_replay_remove, PIR_NOTE_SCENE},
     [PIR_NOTE_UPDATE] = {"update", pir_replay_update, PIR_NOTE_SCENE},
+    [PIR_NOTE_CHANGE] = {"change", pir_replay_change, PIR_NOTE_SCENE},
 };
 
 /* The object of the run so far: a first note that failed leaves none, and no other note may follow. */

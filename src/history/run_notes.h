@@ -37,5 +37,6 @@ pir_status pir_replay_scene(pir_replay *replay);
 pir_status pir_replay_add(pir_replay *replay);
 pir_status pir_replay_remove(pir_replay *replay);
 pir_status pir_replay_update(pir_replay *replay);
+pir_status pir_replay_change(pir_replay *replay);
 
 #endif

@@ -25,7 +25,9 @@ pir_status pir_replay_add(pir_replay *replay) {
     pir_body_options options = pir_body_options_default();
     uint32_t id = 0;
     options.kind = (pir_body_kind)pir_history_take(reader, 1);
-    options.sensor = pir_history_take(reader, 1) != 0;
+    const uint64_t flags = pir_history_take(reader, 1);
+    options.sensor = (flags & 1) != 0;
+    options.disabled = (flags & 2) != 0;
     options.category = (uint32_t)pir_history_take(reader, 4);
     options.mask = (uint32_t)pir_history_take(reader, 4);
     options.radius = pir_history_take_double(reader);
@@ -52,6 +54,19 @@ pir_status pir_replay_add(pir_replay *replay) {
 pir_status pir_replay_remove(pir_replay *replay) {
     uint32_t body = (uint32_t)pir_history_take(&replay->reader, 4);
     return replay->reader.broken ? PIR_ERR_FORMAT : pir_scene_remove(replay->scene, body);
+}
+
+pir_status pir_replay_change(pir_replay *replay) {
+    pir_history_reader *reader = &replay->reader;
+    const uint32_t body = (uint32_t)pir_history_take(reader, 4), what = (uint32_t)pir_history_take(reader, 1),
+                   value = (uint32_t)pir_history_take(reader, 4), other = (uint32_t)pir_history_take(reader, 4);
+    if (what > PIR_CHANGE_DISABLED || (what != PIR_CHANGE_FILTER && (value > 1 || other != 0)))
+        reader->broken = true;
+    if (reader->broken)
+        return PIR_ERR_FORMAT;
+    return what == PIR_CHANGE_FILTER   ? pir_scene_set_filter(replay->scene, body, value, other)
+           : what == PIR_CHANGE_SENSOR ? pir_scene_set_sensor(replay->scene, body, value == 1)
+                                       : pir_scene_set_disabled(replay->scene, body, value == 1);
 }
 
 pir_status pir_replay_update(pir_replay *replay) {

@@ -19,11 +19,18 @@
 #define PIECES 2
 #define POINTS 6
 #define STEPS  10
+#define GONE   (BODIES * BODIES * PIECES * PIECES * STEPS)
 
 struct body {
     bool used, fresh, moved;
+    uint32_t id, stale; /* the scene's; one that it had before, or PIR_SCENE_NONE */
     pir_body_options options;
     pir_polytope *piece[PIECES];
+};
+
+/* The end of a contact: ids of bodies, numbers of pieces. */
+struct end {
+    uint32_t of[4];
 };
 
 struct world {
@@ -32,6 +39,8 @@ struct world {
     struct body body[BODIES]; /* by the scene's numbers */
     double margin;
     bool touching[BODIES][BODIES][PIECES][PIECES];
+    struct end gone[GONE]; /* contacts that ended since the last update */
+    uint32_t gone_count;
 };
 
 /* A place on a coarse grid, so that bodies meet, or any. */
@@ -58,30 +67,73 @@ static void add_body(struct world *world, struct fuzz_input *input) {
     pir_status status = pir_scene_add(world->scene, &made.options, &id);
     fuzz_require(status == PIR_OK || status == PIR_ERR_LIMIT, "a body is added, or is too far away");
     if (status == PIR_OK) {
-        fuzz_require(id < BODIES && !world->body[id].used, "a body has the least number that is free");
-        world->body[id] = made;
-        world->body[id].options.pieces = world->body[id].piece;
+        const uint32_t number = pir_body_number(id);
+        fuzz_require(number < BODIES && !world->body[number].used, "a body has the least number that is free");
+        made.id = id;
+        made.stale = world->body[number].stale;
+        fuzz_require(id != made.stale && pir_scene_has(world->scene, id), "an id is new");
+        world->body[number] = made;
+        world->body[number].options.pieces = world->body[number].piece;
         return;
     }
     for (uint32_t i = 0; i < made.options.piece_count; i++)
         pir_polytope_release(made.piece[i]);
 }
 
+static bool may_meet(const struct body *a, const struct body *b);
+
+/* Two bodies' contacts end, which the next update tells. */
+static void end_contacts(struct world *world, uint32_t a, uint32_t b) {
+    const uint32_t p = a < b ? a : b, q = a < b ? b : a;
+    for (uint32_t i = 0; i < PIECES; i++)
+        for (uint32_t k = 0; k < PIECES; k++) {
+            if (world->touching[p][q][i][k])
+                world->gone[world->gone_count++] = (struct end){{world->body[p].id, world->body[q].id, i, k}};
+            world->touching[p][q][i][k] = false;
+        }
+}
+
+/* Changes what a body is told by; what it does not meet any more ends. */
+static void change_body(struct world *world, uint32_t id, uint8_t how) {
+    struct body *body = &world->body[id];
+    const uint32_t named = body->used ? body->id : body->stale;
+    const pir_status right = body->used ? PIR_OK : PIR_ERR_ARGUMENT;
+    if (how % 2) {
+        body->options.disabled = !body->options.disabled;
+        fuzz_require(pir_scene_set_disabled(world->scene, named, body->options.disabled) == right,
+                     "a body is disabled");
+    } else {
+        body->options.sensor = !body->options.sensor;
+        fuzz_require(pir_scene_set_sensor(world->scene, named, body->options.sensor) == right, "a body is a sensor");
+    }
+    if (!body->used)
+        return;
+    body->fresh = true;
+    for (uint32_t other = 0; other < BODIES; other++)
+        if (other != id && !may_meet(body, &world->body[other]))
+            end_contacts(world, id, other);
+}
+
 static void remove_body(struct world *world, uint32_t id) {
     struct body *body = &world->body[id];
-    fuzz_require(pir_scene_remove(world->scene, id) == (body->used ? PIR_OK : PIR_ERR_ARGUMENT), "a body is removed");
+    const uint32_t named = body->used ? body->id : body->stale;
+    fuzz_require(pir_scene_remove(world->scene, named) == (body->used ? PIR_OK : PIR_ERR_ARGUMENT),
+                 "a body is removed");
+    fuzz_require(!pir_scene_has(world->scene, named), "an id of a body that was removed is refused");
+    body->stale = named;
+    for (uint32_t other = 0; other < BODIES; other++)
+        if (other != id)
+            end_contacts(world, id, other);
     for (uint32_t i = 0; body->used && i < body->options.piece_count; i++)
         pir_polytope_release(body->piece[i]);
     body->used = false;
-    for (uint32_t other = 0; other < BODIES; other++) {
-        memset(world->touching[id][other], 0, sizeof world->touching[0][0]);
-        memset(world->touching[other][id], 0, sizeof world->touching[0][0]);
-    }
 }
 
 static bool may_meet(const struct body *a, const struct body *b) {
-    return a->used && b->used && (a->options.kind == PIR_BODY_MOVING || b->options.kind == PIR_BODY_MOVING) &&
-           !(a->options.sensor && b->options.sensor);
+    const pir_body_options *p = &a->options, *q = &b->options;
+    const bool moves = p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING;
+    const bool is_sensed = (p->sensor && q->kind == PIR_BODY_KINEMATIC) || (q->sensor && p->kind == PIR_BODY_KINEMATIC);
+    return a->used && b->used && !p->disabled && !q->disabled && (moves || is_sensed) && !(p->sensor && q->sensor);
 }
 
 /* Whether two pieces are in contact, by a pair made for the question. */
@@ -113,6 +165,17 @@ static void check_event(const pir_scene_event *event, pir_event_kind kind, const
                  "an event tells the distance of a pair");
 }
 
+/* Whether an event tells the end of a contact of a body that was removed or changed: then it is counted off. */
+static bool is_gone(struct world *world, const pir_scene_event *event) {
+    const uint32_t of[4] = {event->body_p, event->body_q, event->piece_p, event->piece_q};
+    for (uint32_t i = 0; event->kind == PIR_EVENT_ENDED && i < world->gone_count; i++)
+        if (memcmp(of, world->gone[i].of, sizeof of) == 0) {
+            world->gone[i] = world->gone[--world->gone_count];
+            return true;
+        }
+    return false;
+}
+
 /* Compares the events with those that all pairs of pieces should have. */
 static void check_events(struct world *world) {
     size_t count = 0, next = 0;
@@ -131,14 +194,19 @@ static void check_events(struct world *world) {
                     *before = is;
                     if (!is && !was)
                         continue;
+                    while (next < count && is_gone(world, &events[next]))
+                        next++;
                     fuzz_require(next < count, "all contacts have events");
                     const pir_scene_event *event = &events[next++];
-                    fuzz_require(event->body_p == a && event->body_q == b && event->piece_p == i && event->piece_q == k,
+                    fuzz_require(event->body_p == p->id && event->body_q == q->id && event->piece_p == i &&
+                                     event->piece_q == k,
                                  "events are in the order of their bodies");
                     check_event(event, !is ? PIR_EVENT_ENDED : was ? PIR_EVENT_PERSISTED : PIR_EVENT_BEGAN, &right);
                 }
         }
-    fuzz_require(next == count, "no other events");
+    while (next < count && is_gone(world, &events[next]))
+        next++;
+    fuzz_require(next == count && world->gone_count == 0, "no other events");
     for (uint32_t a = 0; a < BODIES; a++)
         world->body[a].fresh = world->body[a].moved = false;
 }
@@ -153,7 +221,7 @@ static void update(struct world *world, struct fuzz_input *input) {
         if (!(which >> a & 1) || !body->used || body->options.kind == PIR_BODY_STATIC)
             continue;
         pir_pose pose = {fuzz_rotation(input, body->options.pose.rotation), next_place(input)};
-        move[count++] = (pir_scene_move){a, pose};
+        move[count++] = (pir_scene_move){body->id, pose};
     }
     pir_status status = pir_scene_update(world->scene, move, count);
     fuzz_require(status == PIR_OK || status == PIR_ERR_LIMIT, "an update, or bodies too far away");
@@ -162,8 +230,8 @@ static void update(struct world *world, struct fuzz_input *input) {
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        world->body[move[i].body].options.pose = move[i].pose;
-        world->body[move[i].body].moved = true;
+        world->body[pir_body_number(move[i].body)].options.pose = move[i].pose;
+        world->body[pir_body_number(move[i].body)].moved = true;
     }
     check_events(world);
 }
@@ -195,6 +263,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     options.margin = world.margin = fuzz_byte(&input) % 2 ? 0.125 : 0;
     fuzz_require(pir_scene_create(&options, &world.scene) == PIR_OK, "a scene");
     fuzz_require(pir_workspace_create(NULL, &world.workspace) == PIR_OK, "a workspace");
+    for (uint32_t a = 0; a < BODIES; a++)
+        world.body[a].stale = PIR_SCENE_NONE;
     for (int step = 0; step < STEPS && input.at < input.size; step++) {
         uint8_t form = fuzz_byte(&input);
         uint32_t bodies = pir_scene_get_statistics(world.scene).bodies;
@@ -202,6 +272,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
             add_body(&world, &input);
         else if (form % 16 == 3)
             remove_body(&world, fuzz_byte(&input) % BODIES);
+        else if (form % 16 == 11)
+            change_body(&world, fuzz_byte(&input) % BODIES, form / 16);
         else if (form % 16 == 7)
             check_snapshot(&world, &input);
         else

@@ -39,7 +39,8 @@ def main(root):
             checked += 1
             # an internal function is written once where it is inline, else declared and defined
             own = 1 if kind.startswith("static") else 2
-            used = outside[name] > 0 if kind.startswith("PIR_API") else inside[name] > own
+            is_public = "include" in header.relative_to(root).parts
+            used = (is_public and outside[name] > 0) or (not kind.startswith("PIR_API") and inside[name] > own)
             if not used:
                 unused.append(f"{header.relative_to(root)}: nothing uses {name}")
     print(f"{checked} functions declared, {len(unused)} without a user")

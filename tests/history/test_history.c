@@ -190,6 +190,17 @@ static void note_scene(pir_history *history, struct told *right) {
             assert_int_equal(pir_history_remove(history, moves[BODIES - 1].body), PIR_OK);
             right->hash[right->count++] = PIR_HASH_START;
         }
+        if (step == 2 || step == 5) {
+            const bool on = step == 2;
+            assert_int_equal(pir_scene_set_disabled(scene, moves[1].body, on), PIR_OK);
+            assert_int_equal(pir_history_disabled(history, moves[1].body, on), PIR_OK);
+            assert_int_equal(pir_scene_set_sensor(scene, moves[0].body, on), PIR_OK);
+            assert_int_equal(pir_history_sensor(history, moves[0].body, on), PIR_OK);
+            assert_int_equal(pir_scene_set_filter(scene, moves[2].body, 1, on ? 2 : UINT32_MAX), PIR_OK);
+            assert_int_equal(pir_history_filter(history, moves[2].body, 1, on ? 2 : UINT32_MAX), PIR_OK);
+            for (int k = 0; k < 3; k++)
+                right->hash[right->count++] = PIR_HASH_START;
+        }
         assert_int_equal(pir_scene_update(scene, moves, count), PIR_OK);
         assert_int_equal(pir_history_update(history, moves, count), PIR_OK);
         right->hash[right->count++] = pir_replay_hash_events(PIR_HASH_START, scene);

@@ -243,6 +243,32 @@ static pir_status ask_scene_add(struct world *w, const void *options, pir_report
     return status == PIR_OK ? pir_scene_remove(w->scene, body) : status;
 }
 
+static pir_status ask_scene_keep(struct world *w, const void *options, pir_report *report, double *told) {
+    const pir_status status = pir_scene_keep(w->scene, options);
+    *report = *w->report;
+    *told = 0;
+    pir_scene_forget_shapes(w->scene);
+    return status;
+}
+
+static pir_status ask_scene_ray_first(struct world *w, const void *options, pir_report *report, double *told) {
+    pir_impact impact = {.time = 0};
+    const pir_status status =
+        pir_scene_ray_first(w->scene, (pir_vec3){0, 0, 9}, (pir_vec3){0, 0, -9}, options, &impact);
+    *report = *w->report;
+    *told = impact.time;
+    return status;
+}
+
+static pir_status ask_scene_ray_batch(struct world *w, const void *options, pir_report *report, double *told) {
+    const pir_scene_segment segment = {{0, 0, 9}, {0, 0, -9}};
+    pir_impact impact = {.time = 0};
+    const pir_status status = pir_scene_ray_batch(w->scene, &segment, 1, options, &impact);
+    *report = *w->report;
+    *told = impact.time;
+    return status;
+}
+
 static pir_status ask_scene_ray_any(struct world *w, const void *options, pir_report *report, double *told) {
     bool hits = false;
     const pir_status status = pir_scene_ray_any(w->scene, (pir_vec3){0, 0, 9}, (pir_vec3){0, 0, -9}, options, &hits);
@@ -452,6 +478,9 @@ static const struct call {
     {"pir_history_add", ask_history_add, &body_kind, false},
     {"pir_scene_create", ask_scene_create, &scene_kind, false},
     {"pir_scene_add", ask_scene_add, &body_kind, true},
+    {"pir_scene_keep", ask_scene_keep, &body_kind, true},
+    {"pir_scene_ray_first", ask_scene_ray_first, &scene_ray_kind, true},
+    {"pir_scene_ray_batch", ask_scene_ray_batch, &scene_ray_kind, true},
     {"pir_scene_ray_any", ask_scene_ray_any, &scene_ray_kind, true},
     {"pir_scene_ray_all", ask_scene_ray_all, &scene_ray_kind, true},
     {"pir_solid_create", ask_solid_create, &solid_kind, true},

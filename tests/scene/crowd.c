@@ -3,6 +3,7 @@
 #include "scene/crowd.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "support/bodies.h"
@@ -64,6 +65,9 @@ static void random_options(crowd *c, crowd_body *body) {
     for (uint32_t i = 0; i < options->piece_count; i++)
         body->piece[i] = random_piece(c, (pir_vec3){(double)i, 0, 0});
     options->pieces = body->piece;
+    options->user = (uint64_t)1 << 40 | c->adds++;
+    static const uint64_t users[CROWD_PIECES] = {100, 101, 102};
+    options->piece_users = users;
     options->radius = test_random_below(&c->random, 6) == 0 ? 0.25 : 0;
     options->sensor = test_random_below(&c->random, 8) == 0;
     if (test_random_below(&c->random, 5) == 0) {
@@ -74,7 +78,7 @@ static void random_options(crowd *c, crowd_body *body) {
 
 const crowd_body *crowd_body_of(const crowd *c, uint32_t id) {
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
-        if (c->body[i].used && c->body[i].id == id)
+        if (c->body[i].used && pir_body_number(c->body[i].id) == pir_body_number(id))
             return &c->body[i];
     return NULL;
 }
@@ -88,26 +92,85 @@ void crowd_add(crowd *c) {
     crowd_body *body = &c->body[index];
     random_options(c, body);
     assert_int_equal(pir_scene_add(c->scene, &body->options, &body->id), PIR_OK);
-    assert_true(body->id < CROWD_BODIES);
+    assert_true(pir_body_number(body->id) < CROWD_BODIES && pir_scene_has(c->scene, body->id));
     body->used = body->fresh = true;
     c->count++;
+}
+
+/* Whether two bodies meet, by the rules of scene.h. */
+static bool may_meet(const crowd_body *a, const crowd_body *b) {
+    const pir_body_options *p = &a->options, *q = &b->options;
+    const bool moves = p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING;
+    const bool is_sensed = (p->sensor && q->kind == PIR_BODY_KINEMATIC) || (q->sensor && p->kind == PIR_BODY_KINEMATIC);
+    return !p->disabled && !q->disabled && (moves || is_sensed) && (p->category & q->mask) && (q->category & p->mask) &&
+           !(p->sensor && q->sensor);
+}
+
+static void end_contact(crowd *c, const crowd_body *p, const crowd_body *q, bool sensor) {
+    for (uint32_t i = 0; i < CROWD_PIECES; i++)
+        for (uint32_t k = 0; k < CROWD_PIECES; k++) {
+            bool *touching = &c->touching[pir_body_number(p->id)][pir_body_number(q->id)][i][k];
+            if (!*touching)
+                continue;
+            *touching = false;
+            assert_true(c->gone_count < CROWD_GONE);
+            c->gone[c->gone_count++] = (pir_scene_event){.kind = PIR_EVENT_ENDED,
+                                                         .body_p = p->id,
+                                                         .body_q = q->id,
+                                                         .piece_p = i,
+                                                         .piece_q = k,
+                                                         .user_p = p->options.user,
+                                                         .user_q = q->options.user,
+                                                         .sensor = sensor};
+        }
+}
+
+/* Ends the contacts of a body with those that it does not meet, or all. */
+static void end_contacts(crowd *c, const crowd_body *body, bool all) {
+    for (uint32_t i = 0; i < CROWD_BODIES; i++) {
+        const crowd_body *other = &c->body[i];
+        if (!other->used || other == body || (!all && may_meet(body, other)))
+            continue;
+        const bool first = pir_body_number(body->id) < pir_body_number(other->id);
+        end_contact(c, first ? body : other, first ? other : body, body->options.sensor || other->options.sensor);
+    }
 }
 
 void crowd_remove(crowd *c, uint32_t index) {
     crowd_body *body = &c->body[index];
     if (!body->used)
         return;
+    end_contacts(c, body, true);
     assert_int_equal(pir_scene_remove(c->scene, body->id), PIR_OK);
+    assert_false(pir_scene_has(c->scene, body->id));
     assert_int_equal(pir_scene_remove(c->scene, body->id), PIR_ERR_ARGUMENT);
     assert_true(pir_scene_is_valid(c->scene));
-    for (uint32_t other = 0; other < CROWD_BODIES; other++) {
-        memset(c->touching[body->id][other], 0, sizeof c->touching[0][0]);
-        memset(c->touching[other][body->id], 0, sizeof c->touching[0][0]);
-    }
     for (uint32_t i = 0; i < body->options.piece_count; i++)
         pir_polytope_release(body->piece[i]);
     body->used = false;
     c->count--;
+}
+
+void crowd_change(crowd *c, uint32_t index) {
+    crowd_body *body = &c->body[index];
+    pir_body_options *options = &body->options;
+    if (!body->used)
+        return;
+    const uint32_t how = test_random_below(&c->random, 4);
+    if (how == 0) {
+        options->sensor = !options->sensor;
+        assert_int_equal(pir_scene_set_sensor(c->scene, body->id, options->sensor), PIR_OK);
+    } else if (how == 1) {
+        options->category = 1u << test_random_below(&c->random, 3);
+        options->mask = test_random_below(&c->random, 8);
+        assert_int_equal(pir_scene_set_filter(c->scene, body->id, options->category, options->mask), PIR_OK);
+    } else {
+        options->disabled = !options->disabled;
+        assert_int_equal(pir_scene_set_disabled(c->scene, body->id, options->disabled), PIR_OK);
+    }
+    end_contacts(c, body, false);
+    body->fresh = true;
+    assert_true(pir_scene_is_valid(c->scene));
 }
 
 void crowd_init(crowd *c, uint64_t number, uint32_t count, const pir_scene_options *options) {
@@ -149,12 +212,6 @@ void crowd_move(crowd *c, double part) {
 }
 
 /* --- by brute force --- */
-
-static bool may_meet(const crowd_body *a, const crowd_body *b) {
-    const pir_body_options *p = &a->options, *q = &b->options;
-    return (p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING) && (p->category & q->mask) &&
-           (q->category & p->mask) && !(p->sensor && q->sensor);
-}
 
 static bool was_moved(const crowd *c, const crowd_body *body) {
     for (size_t i = 0; i < c->moves; i++)
@@ -225,8 +282,8 @@ static void check_approach(const crowd *c, const pir_scene_event *event, const p
     const crowd_body *p = crowd_body_of(c, event->body_p), *q = crowd_body_of(c, event->body_q);
     double expected = 0;
     if (c->options.approach && event->contact_count > 0) {
-        pir_vec3 of_p = way_of(&before[event->body_p], &p->options.pose, event->contacts[0].point_p);
-        pir_vec3 of_q = way_of(&before[event->body_q], &q->options.pose, event->contacts[0].point_q);
+        pir_vec3 of_p = way_of(&before[pir_body_number(event->body_p)], &p->options.pose, event->contacts[0].point_p);
+        pir_vec3 of_q = way_of(&before[pir_body_number(event->body_q)], &q->options.pose, event->contacts[0].point_q);
         expected = test_dot(test_add(of_q, of_p, -1), event->normal);
     }
     expect(fabs(event->approach - expected) <= 1e-12, "crowd %llu: approach", (unsigned long long)number);
@@ -236,7 +293,7 @@ static void check_approach(const crowd *c, const pir_scene_event *event, const p
 static bool check_pieces(crowd *c, const crowd_body *p, const crowd_body *q, uint32_t i, uint32_t k,
                          const pir_scene_event *event, uint64_t number) {
     struct reply reply;
-    bool *before = &c->touching[p->id][q->id][i][k];
+    bool *before = &c->touching[pir_body_number(p->id)][pir_body_number(q->id)][i][k];
     bool is = ask_pieces(c, p, q, i, k, &reply);
     bool was = *before;
     unsigned long long n = number;
@@ -246,6 +303,8 @@ static bool check_pieces(crowd *c, const crowd_body *p, const crowd_body *q, uin
         return false;
     expect(event && event->body_p == p->id && event->body_q == q->id && event->piece_p == i && event->piece_q == k,
            "crowd %llu: bodies %u, %u, pieces %u, %u have no event", n, p->id, q->id, i, k);
+    expect(event->user_p == p->options.user && event->user_q == q->options.user, "crowd %llu: users", n);
+    expect(event->piece_user_p == 100 + i && event->piece_user_q == 100 + k, "crowd %llu: users of pieces", n);
     pir_event_kind kind = !is ? PIR_EVENT_ENDED : was ? PIR_EVENT_PERSISTED : PIR_EVENT_BEGAN;
     expect(event->kind == kind && !event->sensor == !(p->options.sensor || q->options.sensor), "crowd %llu", n);
     if (is) {
@@ -256,15 +315,56 @@ static bool check_pieces(crowd *c, const crowd_body *p, const crowd_body *q, uin
     return true;
 }
 
+static uint32_t order_of(uint32_t id) {
+    return pir_body_number(id) << 12 | id >> 20;
+}
+
+static int by_order(const void *x, const void *y) {
+    const pir_scene_event *a = x, *b = y;
+    const uint32_t p[4] = {order_of(a->body_p), order_of(a->body_q), a->piece_p, a->piece_q};
+    const uint32_t q[4] = {order_of(b->body_p), order_of(b->body_q), b->piece_p, b->piece_q};
+    for (int k = 0; k < 4; k++)
+        if (p[k] != q[k])
+            return p[k] < q[k] ? -1 : 1;
+    return 0;
+}
+
+/* The ends that bodies left which were removed or changed stand in order among the events; the others are given. */
+static size_t check_gone(crowd *c, const pir_scene_event *events, size_t count, pir_scene_event *ret_others,
+                         uint64_t number) {
+    size_t next = 0, others = 0;
+    qsort(c->gone, c->gone_count, sizeof *c->gone, by_order);
+    for (size_t i = 0; i < count; i++) {
+        expect(i == 0 || by_order(&events[i - 1], &events[i]) <= 0, "crowd %llu: event %zu is out of order",
+               (unsigned long long)number, i);
+        const pir_scene_event *gone = next < c->gone_count ? &c->gone[next] : NULL;
+        if (!gone || events[i].kind != PIR_EVENT_ENDED || by_order(gone, &events[i]) != 0) {
+            ret_others[others++] = events[i];
+            continue;
+        }
+        expect(events[i].user_p == gone->user_p && events[i].user_q == gone->user_q &&
+                   events[i].piece_user_p == 100 + gone->piece_p && events[i].piece_user_q == 100 + gone->piece_q &&
+                   !events[i].sensor == !gone->sensor && events[i].contact_count == 0,
+               "crowd %llu: an end of a body that is gone", (unsigned long long)number);
+        next++;
+    }
+    expect(next == c->gone_count, "crowd %llu: %zu ends, %zu expected", (unsigned long long)number, next,
+           c->gone_count);
+    c->gone_count = 0;
+    return others;
+}
+
 void crowd_update_and_check(crowd *c, uint64_t number) {
     pir_pose before[CROWD_BODIES];
     size_t count, next = 0;
     for (uint32_t i = 0; i < CROWD_BODIES; i++)
         if (c->body[i].used)
-            assert_int_equal(pir_scene_pose(c->scene, c->body[i].id, &before[c->body[i].id]), PIR_OK);
+            assert_int_equal(pir_scene_pose(c->scene, c->body[i].id, &before[pir_body_number(c->body[i].id)]), PIR_OK);
     assert_int_equal(pir_scene_update(c->scene, c->move, c->moves), PIR_OK);
     expect(pir_scene_is_valid(c->scene), "crowd %llu", (unsigned long long)number);
-    const pir_scene_event *events = pir_scene_events(c->scene, &count);
+    static pir_scene_event events[CROWD_BODIES * CROWD_BODIES * CROWD_PIECES * CROWD_PIECES];
+    const pir_scene_event *all = pir_scene_events(c->scene, &count);
+    count = check_gone(c, all, count, events, number);
     for (uint32_t a = 0; a < CROWD_BODIES; a++)
         for (uint32_t b = a + 1; b < CROWD_BODIES; b++) {
             const crowd_body *p = crowd_body_of(c, a), *q = crowd_body_of(c, b);

@@ -14,6 +14,7 @@
 
 #define CROWD_BODIES 48
 #define CROWD_PIECES 3
+#define CROWD_GONE   1024
 
 typedef struct crowd_body {
     bool used, fresh; /* in the scene; added since the last update */
@@ -28,11 +29,14 @@ typedef struct crowd {
     pir_scene *scene;
     crowd_body body[CROWD_BODIES];
     uint32_t count;
-    double size; /* of the room that they are in */
+    uint64_t adds; /* so far */
+    double size;   /* of the room that they are in */
     /* by numbers of the scene and of pieces: whether they were in contact */
     bool touching[CROWD_BODIES][CROWD_BODIES][CROWD_PIECES][CROWD_PIECES];
     pir_scene_move move[CROWD_BODIES];
     size_t moves;
+    pir_scene_event gone[CROWD_GONE]; /* that bodies which were removed or changed leave to the next update */
+    size_t gone_count;
     uint64_t contacts; /* that brute force has found so far */
 } crowd;
 
@@ -44,7 +48,10 @@ void crowd_finish(crowd *c);
 void crowd_add(crowd *c);
 void crowd_remove(crowd *c, uint32_t index);
 
-/* The body with that number in the scene; NULL where it has none. */
+/* Changes what a body meets, whether it is a sensor, or whether it is disabled. */
+void crowd_change(crowd *c, uint32_t index);
+
+/* The body with that number, or number of that id, in the scene; NULL where it has none. */
 const crowd_body *crowd_body_of(const crowd *c, uint32_t id);
 
 /* New poses for about this part of the bodies: near the old ones, now and then far. */

@@ -28,6 +28,9 @@ static void live(crowd *c, uint64_t number, uint32_t updates) {
             crowd_add(c);
         if (i % 5 == 4)
             crowd_remove(c, test_random_below(&c->random, CROWD_BODIES));
+        if (i % 3 == 1)
+            for (int k = 0; k < 3; k++)
+                crowd_change(c, test_random_below(&c->random, CROWD_BODIES));
         crowd_move(c, i % 4 == 0 ? 1 : 0.25);
         crowd_update_and_check(c, number);
     }

@@ -142,8 +142,12 @@ static void the_nearest_are_those_of_all_pieces(void **state) {
         for (uint32_t id = 0; id < CROWD_BODIES; id++) {
             const crowd_body *body = crowd_body_of(&c, id);
             for (uint32_t k = 0; sees(&shape, body) && k < body->options.piece_count; k++) {
-                pir_scene_near one = {PIR_SCENE_NONE, id, 0, k,
-                                      ask_alone(shape.polytope, shape.pose, shape.radius, body, k)};
+                pir_scene_near one = {.body_p = PIR_SCENE_NONE,
+                                      .body_q = id,
+                                      .piece_q = k,
+                                      .result = ask_alone(shape.polytope, shape.pose, shape.radius, body, k),
+                                      .user_q = body->options.user,
+                                      .piece_user_q = 100 + k};
                 if (one.result.distance <= cutoff)
                     insert(all, &expected, &one);
             }
@@ -174,8 +178,16 @@ static void the_closest_pairs_are_those_of_all(void **state) {
                 const crowd_body *p = crowd_body_of(&c, a), *q = crowd_body_of(&c, b);
                 for (uint32_t i = 0; p && q && may_meet(p, q) && i < p->options.piece_count; i++)
                     for (uint32_t k = 0; k < q->options.piece_count; k++) {
-                        pir_scene_near one = {a, b, i, k,
-                                              ask_alone(p->piece[i], p->options.pose, p->options.radius, q, k)};
+                        pir_scene_near one = {.body_p = a,
+                                              .body_q = b,
+                                              .piece_p = i,
+                                              .piece_q = k,
+                                              .result =
+                                                  ask_alone(p->piece[i], p->options.pose, p->options.radius, q, k),
+                                              .user_p = p->options.user,
+                                              .user_q = q->options.user,
+                                              .piece_user_p = 100 + i,
+                                              .piece_user_q = 100 + k};
                         if (one.result.distance <= cutoff)
                             insert(all, &expected, &one);
                     }
@@ -670,6 +682,115 @@ static void memory_that_fails_fails_the_query_alone(void **state) {
     pir_polytope_release(shape_of);
 }
 
+/* Casts of a ball as a point with a radius, by conservative advancement, and rays of that radius, in closed form. */
+static void rays_with_a_radius_are_casts_of_balls(void **state) {
+    (void)state;
+    static crowd c;
+    uint32_t hit = 0, missed = 0;
+    test_points centre = {1, {{0, 0, 0}}};
+    pir_polytope *point = test_polytope(&centre);
+    for (uint64_t n = 0; n < 40; n++) {
+        new_crowd(&c, n);
+        for (int i = 0; i < 8; i++) {
+            const double tolerance = 1e-7;
+            pir_scene_ray_options options = pir_scene_ray_options_default();
+            pir_scene_shape ball = pir_scene_shape_default(point);
+            const pir_vec3 origin = test_add(test_zero, test_random_direction(&c.random), 2 * c.size);
+            const pir_motion motion = {test_add(test_random_direction(&c.random), origin, -1.5), {0, 0, 0}, 0};
+            pir_impact impact, right;
+            options.radius = ball.radius = 0.0625 * (1 + i);
+            options.mask = ball.mask = i % 2 ? UINT32_MAX : 1;
+            ball.pose.translation = origin;
+            assert_int_equal(pir_scene_ray_first(c.scene, origin, motion.way, &options, &impact), PIR_OK);
+            assert_int_equal(pir_scene_cast(c.scene, &ball, &motion, tolerance, &right), PIR_OK);
+            const unsigned long long number = n * 8 + (uint64_t)i;
+            // a ball that hardly touches something on its way may pass it by its tolerance
+            const double room = 1e-3;
+            expect(impact.time >= right.time - 1e-9 && impact.time >= 0 && impact.time <= 1, "ray %llu", number);
+            const bool hits = impact.outcome != PIR_CAST_MISS;
+            expect(impact.time <= right.time + room || right.outcome == PIR_CAST_MISS || !hits, "ray %llu: %g, %g",
+                   number, impact.time, right.time);
+            hit += hits;
+            missed += !hits;
+            if (impact.outcome != PIR_CAST_HIT)
+                continue;
+            const crowd_body *body = crowd_body_of(&c, impact.body);
+            const pir_query_result there =
+                ask_alone(point, (pir_pose){{0, 0, 0, 1}, impact.point}, 0, body, impact.piece_q);
+            expect(fabs(there.distance) < 1e-9, "ray %llu: its point is %g off", number, there.distance);
+            expect(impact.user == body->options.user && impact.piece_user == 100 + impact.piece_q, "ray %llu", number);
+        }
+        crowd_finish(&c);
+    }
+    pir_polytope_release(point);
+    expect(hit > 100 && missed > 2, "%u hits, %u misses", hit, missed);
+}
+
+static bool counts_even(void *context, uint32_t body, uint64_t user) {
+    ++*(uint32_t *)context;
+    return body % 2 == 0 && user > 0;
+}
+
+/* What a filter leaves out, each by a scene without it; many rays at once are as one after the other. */
+static void filters_leave_out_what_they_name(void **state) {
+    (void)state;
+    static crowd c;
+    for (uint64_t n = 0; n < 20; n++) {
+        new_crowd(&c, n);
+        const uint32_t ignored[3] = {1, 4, 1u << 20 | 2};
+        uint32_t asked = 0, seen = 0;
+        const pir_query_filter by_id = {.ignored = ignored, .ignored_count = 3},
+                               by_call = {.counts = counts_even, .context = &asked};
+        pir_scene_ray_options options = pir_scene_ray_options_default();
+        pir_scene_shape shape = random_shape(&c);
+        pir_scene_hit all[MOST], few[MOST];
+        size_t of_all, of_few;
+        for (int k = 0; k < 2; k++) {
+            shape.mask = UINT32_MAX;
+            shape.except = PIR_SCENE_NONE;
+            shape.filter = NULL;
+            assert_int_equal(pir_scene_overlap(c.scene, &shape, MOST, all, &of_all), PIR_OK);
+            shape.filter = k == 0 ? &by_id : &by_call;
+            assert_int_equal(pir_scene_overlap(c.scene, &shape, MOST, few, &of_few), PIR_OK);
+            size_t next = 0;
+            for (size_t i = 0; i < of_all; i++)
+                if (k == 0 ? all[i].body != 1 && all[i].body != 4 : all[i].body % 2 == 0)
+                    assert_memory_equal(&few[next++], &all[i], sizeof *all);
+            assert_int_equal(next, of_few);
+        }
+        assert_true(asked > 0 || of_all == 0);
+        pir_scene_segment segment[16];
+        pir_impact impact[16];
+        for (int i = 0; i < 16; i++) {
+            segment[i].origin = test_add(test_zero, test_random_direction(&c.random), 2 * c.size);
+            segment[i].way = test_add(test_random_direction(&c.random), segment[i].origin, -1.5);
+        }
+        options.filter = &by_call;
+        options.radius = n % 2 ? 0.125 : 0;
+        assert_int_equal(pir_scene_ray_batch(c.scene, segment, 16, &options, impact), PIR_OK);
+        for (int i = 0; i < 16; i++) {
+            pir_impact one;
+            assert_int_equal(pir_scene_ray_first(c.scene, segment[i].origin, segment[i].way, &options, &one), PIR_OK);
+            assert_true(one.body == impact[i].body && one.time == impact[i].time && one.piece_q == impact[i].piece_q);
+            assert_true(one.body == PIR_SCENE_NONE || one.body % 2 == 0);
+            seen += one.body != PIR_SCENE_NONE;
+        }
+        assert_int_equal(pir_scene_ray_batch(c.scene, NULL, 0, NULL, NULL), PIR_OK);
+        assert_int_equal(pir_scene_ray_batch(c.scene, NULL, 1, NULL, impact), PIR_ERR_ARGUMENT);
+        const pir_impact before = impact[0];
+        segment[15].way.x = NAN;
+        assert_int_equal(pir_scene_ray_batch(c.scene, segment, 16, &options, impact), PIR_ERR_NOT_FINITE);
+        assert_memory_equal(&before, &impact[0], sizeof before);
+        options.radius = -1;
+        assert_int_equal(pir_scene_ray_first(c.scene, test_zero, test_zero, &options, impact), PIR_ERR_ARGUMENT);
+        options.radius = NAN;
+        assert_int_equal(pir_scene_ray_first(c.scene, test_zero, test_zero, &options, impact), PIR_ERR_NOT_FINITE);
+        assert_true(seen > 0);
+        pir_polytope_release(shape.polytope);
+        crowd_finish(&c);
+    }
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -688,6 +809,8 @@ int main(void) {
         cmocka_unit_test(a_fast_body_meets_a_wall_in_time),
         cmocka_unit_test(what_cannot_be_asked_is_refused),
         cmocka_unit_test(memory_that_fails_fails_the_query_alone),
+        cmocka_unit_test(rays_with_a_radius_are_casts_of_balls),
+        cmocka_unit_test(filters_leave_out_what_they_name),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

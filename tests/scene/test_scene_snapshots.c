@@ -13,10 +13,18 @@
 #include <pirouette/scene_file.h>
 
 #include "scene/crowd.h"
+#include "support/bodies.h"
+#include "support/hash.h"
 #include "support/memory.h"
 #include "support/meshes.h"
 
 #define FRAMES 16
+
+/* Where things stand in a snapshot: the checksum, the generations, a body's size, its pose. */
+#define CHECKSUM_AT 32
+#define HEADER      40
+#define BODY        104
+#define POSE        48
 
 struct bytes {
     unsigned char *data;
@@ -96,11 +104,15 @@ static void a_restored_scene_goes_on_as_it_did(void **state) {
 /* Sets the checksum right, so that what was changed is found by what reads it. */
 static void seal(struct bytes *bytes) {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
-    for (size_t i = 0; i < bytes->size; i++)
-        if (i < 24 || i >= 32)
-            hash = (hash ^ bytes->data[i]) * UINT64_C(0x100000001b3);
+    for (size_t i = 0; i < bytes->size; i += 8) {
+        uint64_t word = 0;
+        for (size_t k = 0; k < 8; k++)
+            word |= (uint64_t)bytes->data[i + k] << (8 * k);
+        if (i != CHECKSUM_AT)
+            hash = (hash ^ word) * UINT64_C(0x100000001b3);
+    }
     for (int k = 0; k < 8; k++)
-        bytes->data[24 + k] = (unsigned char)(hash >> (8 * k));
+        bytes->data[CHECKSUM_AT + k] = (unsigned char)(hash >> (8 * k));
 }
 
 /* Every byte changed, with and without a checksum that holds: an error that says why, or a state that is valid. */
@@ -163,7 +175,7 @@ static void poses_that_are_none_are_named(void **state) {
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         pir_report report = {PIR_OK, ""};
-        unsigned char *pose = bad.data + 32 + 2 * 80 + 16;
+        unsigned char *pose = bad.data + HEADER + 4 * 6 + 2 * BODY + POSE;
         memcpy(bad.data, good.data, good.size);
         for (int k = 0; k < 4; k++)
             if (wrong[i].at == 7 || wrong[i].at == k)
@@ -195,11 +207,17 @@ static void what_is_no_snapshot_of_the_scene_is_refused(void **state) {
     assert_int_equal(pir_scene_restore(c.scene, NULL, bytes.size, NULL), PIR_ERR_ARGUMENT);
     bytes.data[8] = 1;
     assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_VERSION);
-    bytes.data[8] = 2;
-    crowd_add(&c);
-    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_ARGUMENT);
+    bytes.data[8] = 3;
+    // a body that came since is dropped; one that went cannot be made, for its shape was not kept
+    pir_report report = {PIR_OK, ""};
+    uint32_t added = PIR_SCENE_NONE;
+    assert_int_equal(pir_scene_add(c.scene, &c.body[0].options, &added), PIR_OK);
+    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_OK);
+    assert_false(pir_scene_has(c.scene, added));
     crowd_remove(&c, 2);
-    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_scene_restore(c.scene, bytes.data, bytes.size, &report), PIR_ERR_ARGUMENT);
+    assert_string_equal(report.text, "snapshot: body 2 is none of the scene, and its own shape is not kept");
+    assert_int_equal(pir_scene_get_statistics(c.scene).bodies, 4);
     free(bytes.data);
     crowd_finish(&c);
 }
@@ -242,6 +260,198 @@ static void restore_short_of_memory(bool updated) {
     assert_true(failures > 0);
 }
 
+/* --- bodies that come and go --- */
+
+#define SHAPES 8
+#define LONG   64
+
+/* A frame of a life that depends on the state of the scene and on numbers alone. */
+static uint64_t live(pir_scene *scene, pir_polytope **shape, uint64_t number, int frame) {
+    test_random random = test_random_case("lives", number * 1000 + (uint64_t)frame);
+    static pir_scene_move move[256];
+    size_t moves = 0;
+    for (uint32_t id = pir_scene_next(scene, PIR_SCENE_NONE); id != PIR_SCENE_NONE; id = pir_scene_next(scene, id)) {
+        const uint32_t what = test_random_below(&random, 24);
+        pir_body_state body;
+        assert_int_equal(pir_scene_get_body(scene, id, &body), PIR_OK);
+        if (what < 2)
+            assert_int_equal(pir_scene_remove(scene, id), PIR_OK);
+        else if (what == 2)
+            assert_int_equal(pir_scene_set_disabled(scene, id, !body.disabled), PIR_OK);
+        else if (what == 3)
+            assert_int_equal(pir_scene_set_filter(scene, id, 1u << frame % 3, body.mask ^ 2u), PIR_OK);
+        else if (what == 4)
+            assert_int_equal(pir_scene_set_user(scene, id, body.user + 1), PIR_OK);
+        if (what < 2 || what > 14 || body.kind == PIR_BODY_STATIC)
+            continue;
+        const pir_vec3 velocity = test_random_direction(&random), spin = test_random_direction(&random);
+        move[moves++] = (pir_scene_move){id, pir_pose_integrate(body.pose, velocity, spin, 0.25)};
+    }
+    for (uint32_t i = 0; i < 3 && pir_scene_get_statistics(scene).bodies < 24; i++) {
+        pir_body_options body = pir_body_options_default();
+        const uint64_t users[2] = {1 + test_random_below(&random, 3), 7};
+        uint32_t id;
+        body.pieces = &shape[test_random_below(&random, SHAPES - 1)];
+        body.piece_count = 1 + test_random_below(&random, 2);
+        body.kind = (pir_body_kind)(test_random_below(&random, 5) % 3);
+        body.sensor = test_random_below(&random, 6) == 0;
+        body.user = number;
+        body.piece_users = test_random_below(&random, 3) == 0 ? users : NULL;
+        body.radius = test_random_below(&random, 4) == 0 ? 0.125 : 0;
+        const pir_vec3 at = test_random_direction(&random);
+        body.pose.translation = (pir_vec3){at.x, at.y, at.z};
+        assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
+    }
+    assert_int_equal(pir_scene_update(scene, move, moves), PIR_OK);
+    return crowd_hash_events(TEST_HASH_START, scene);
+}
+
+static void make_shapes(uint64_t number, pir_polytope **shape) {
+    test_random random = test_random_case("shapes", number);
+    for (uint32_t i = 0; i < SHAPES; i++) {
+        test_points points;
+        test_body_points(&random, i % 2 ? TEST_BOX : TEST_SPHERE, 12, &points);
+        for (size_t k = 0; k < points.count; k++)
+            points.at[k] = (pir_vec3){points.at[k].x / 4, points.at[k].y / 4, points.at[k].z / 4};
+        shape[i] = test_polytope(&points);
+    }
+}
+
+/* Back and forth over bodies that come, go and change, with 1, 2 and 4 threads: all bits as the first time. */
+static void a_scene_goes_back_over_bodies_that_come_and_go(void **state) {
+    (void)state;
+    const char *asked = getenv("PIR_TEST_LIVES");
+    const uint64_t lives = asked ? strtoull(asked, NULL, 10) : 6;
+    uint64_t frames = 0;
+    for (uint64_t n = 0; n < lives; n++) {
+        pir_polytope *shape[SHAPES];
+        pir_scene *scene;
+        struct bytes before[LONG];
+        uint64_t hash[LONG];
+        test_random random = test_random_case("ways back", n);
+        pir_scene_options options = pir_scene_options_default();
+        options.margin = n % 2 ? 0.03125 : 0;
+        options.threads = n % 3 == 2 ? 4 : 1 + (uint32_t)(n % 3);
+        options.unions = n % 4 == 3;
+        options.keep_shapes = true;
+        make_shapes(n, shape);
+        assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
+        for (int f = 0; f < LONG; f++) {
+            before[f] = snapshot(scene);
+            hash[f] = live(scene, shape, n, f);
+        }
+        for (int back = 0; back < 40; back++) {
+            const int from = (int)test_random_below(&random, LONG), to = from + 1 + (int)test_random_below(&random, 8);
+            assert_int_equal(pir_scene_restore(scene, before[from].data, before[from].size, NULL), PIR_OK);
+            for (int f = from; f < to && f < LONG; f++, frames++) {
+                struct bytes again = snapshot(scene);
+                expect(same_bytes(&again, &before[f]), "life %llu, frame %d", (unsigned long long)n, f);
+                free(again.data);
+                expect(pir_scene_is_valid(scene), "life %llu, frame %d", (unsigned long long)n, f);
+                expect(live(scene, shape, n, f) == hash[f], "life %llu from %d, frame %d", (unsigned long long)n, from,
+                       f);
+            }
+            // a way that is not gone again: other bodies under the numbers
+            if (back % 3 == 0)
+                live(scene, shape, n + 77, back);
+        }
+        for (int f = 0; f < LONG; f++)
+            free(before[f].data);
+        pir_scene_destroy(scene);
+        for (uint32_t i = 0; i < SHAPES; i++)
+            pir_polytope_release(shape[i]);
+    }
+    print_message("%llu frames gone again\n", (unsigned long long)frames);
+}
+
+/* A scene without bodies that was given the shapes becomes any other; where it has forgotten them it says which. */
+static void a_scene_of_shapes_alone_becomes_another(void **state) {
+    (void)state;
+    pir_polytope *shape[SHAPES];
+    pir_scene *scene, *other;
+    pir_report report = {PIR_OK, ""};
+    make_shapes(3, shape);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &other), PIR_OK);
+    for (uint32_t i = 0; i + 1 < SHAPES; i++)
+        for (uint32_t pieces = 1; pieces < 3; pieces++) {
+            pir_body_options body = pir_body_options_default();
+            body.pieces = &shape[i];
+            body.piece_count = pieces;
+            assert_int_equal(pir_scene_keep(other, &body), PIR_OK);
+            assert_int_equal(pir_scene_keep(other, &body), PIR_OK);
+        }
+    assert_int_equal(pir_scene_keep(other, NULL), PIR_ERR_ARGUMENT);
+    for (int f = 0; f < 12; f++) {
+        struct bytes now = snapshot(scene), again;
+        assert_int_equal(pir_scene_restore(other, now.data, now.size, &report), PIR_OK);
+        assert_true(pir_scene_is_valid(other));
+        again = snapshot(other);
+        assert_true(same_bytes(&now, &again));
+        assert_true(live(scene, shape, 3, f) == live(other, shape, 3, f));
+        free(now.data);
+        free(again.data);
+    }
+    struct bytes now = snapshot(scene), empty;
+    pir_scene_destroy(other);
+    assert_int_equal(pir_scene_create(NULL, &other), PIR_OK);
+    empty = snapshot(other);
+    pir_scene_forget_shapes(other);
+    assert_int_equal(pir_scene_restore(other, now.data, now.size, &report), PIR_ERR_ARGUMENT);
+    assert_non_null(strstr(report.text, "is none of the scene, and its own shape is not kept"));
+    assert_int_equal(pir_scene_restore(scene, empty.data, empty.size, &report), PIR_OK);
+    assert_int_equal(pir_scene_get_statistics(scene).bodies, 0);
+    free(now.data);
+    free(empty.data);
+    pir_scene_destroy(scene);
+    pir_scene_destroy(other);
+    for (uint32_t i = 0; i < SHAPES; i++)
+        pir_polytope_release(shape[i]);
+}
+
+/* Memory that fails at any request of a restore which makes and drops bodies changes nothing. */
+static void bodies_stay_where_memory_fails(void **state) {
+    (void)state;
+    pir_polytope *shape[SHAPES];
+    uint64_t failures = 0;
+    make_shapes(1, shape);
+    for (int from = 4; from < 20; from += 5) {
+        pir_status status = PIR_ERR_MEMORY;
+        for (uint64_t request = 1; status == PIR_ERR_MEMORY; request++) {
+            test_memory memory = {0};
+            const pir_allocator allocator = test_allocator(&memory);
+            pir_scene_options options = pir_scene_options_default();
+            options.allocator = &allocator;
+            options.keep_shapes = true;
+            pir_scene *scene;
+            struct bytes early = {NULL, 0}, late, after;
+            assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
+            for (int f = 0; f < from + 8; f++) {
+                if (f == from)
+                    early = snapshot(scene);
+                live(scene, shape, 1, f);
+            }
+            late = snapshot(scene);
+            memory.fail_at = memory.requests + request;
+            status = pir_scene_restore(scene, early.data, early.size, NULL);
+            memory.fail_at = 0;
+            after = snapshot(scene);
+            expect(pir_scene_is_valid(scene), "request %llu", (unsigned long long)request);
+            expect(same_bytes(&after, status == PIR_OK ? &early : &late), "request %llu", (unsigned long long)request);
+            failures += status == PIR_ERR_MEMORY;
+            free(early.data);
+            free(late.data);
+            free(after.data);
+            pir_scene_destroy(scene);
+            assert_int_equal(memory.blocks, 0);
+        }
+        assert_int_equal(status, PIR_OK);
+    }
+    assert_true(failures > 0);
+    for (uint32_t i = 0; i < SHAPES; i++)
+        pir_polytope_release(shape[i]);
+}
+
 static void memory_that_fails_leaves_the_scene_as_it_was(void **state) {
     (void)state;
     restore_short_of_memory(true);
@@ -256,6 +466,9 @@ int main(void) {
         cmocka_unit_test(poses_that_are_none_are_named),
         cmocka_unit_test(what_is_no_snapshot_of_the_scene_is_refused),
         cmocka_unit_test(memory_that_fails_leaves_the_scene_as_it_was),
+        cmocka_unit_test(a_scene_goes_back_over_bodies_that_come_and_go),
+        cmocka_unit_test(a_scene_of_shapes_alone_becomes_another),
+        cmocka_unit_test(bodies_stay_where_memory_fails),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,6 +12,7 @@
 
 #include <pirouette/exact.h>
 #include <pirouette/mass.h>
+#include <pirouette/shape.h>
 
 #include "support/bodies.h"
 #include "support/memory.h"
@@ -325,6 +326,89 @@ static void memory_that_fails_leaves_nothing_behind(void **state) {
     assert_false(memory.wrong_size);
 }
 
+/* --- grown by a ball --- */
+
+static bool is_near(double a, double b, double size) {
+    return fabs(a - b) <= 1e-12 * size;
+}
+
+/* A ball, and a capsule of length 2 h along x: two half balls and a cylinder. */
+static void points_and_segments_are_balls_and_capsules(void **state) {
+    (void)state;
+    const double pi = 3.14159265358979323846, r = 0.75, h = 1.25;
+    test_points point = {1, {{3, -2, 1}}}, ends = {2, {{1 - h, 4, 5}, {1 + h, 4, 5}}};
+    pir_polytope *ball = test_polytope(&point), *segment = test_polytope(&ends);
+    pir_mass mass;
+    assert_int_equal(pir_polytope_rounded_mass(ball, r, &mass), PIR_OK);
+    const double of_ball = 4 * pi / 3 * r * r * r;
+    assert_true(is_near(mass.volume, of_ball, 1) && is_near(mass.inertia[0][0], 0.4 * of_ball * r * r, 1) &&
+                is_near(mass.inertia[2][2], mass.inertia[0][0], 1) && is_near(mass.inertia[0][1], 0, 1));
+    assert_true(mass.centroid.x == 3 && mass.centroid.y == -2 && mass.centroid.z == 1);
+    assert_int_equal(pir_polytope_rounded_mass(segment, r, &mass), PIR_OK);
+    const double of_tube = pi * r * r * 2 * h;
+    assert_true(is_near(mass.volume, of_ball + of_tube, 10));
+    assert_true(is_near(mass.centroid.x, 1, 10) && is_near(mass.centroid.y, 4, 10) && is_near(mass.centroid.z, 5, 10));
+    assert_true(is_near(mass.inertia[0][0], 0.5 * of_tube * r * r + 0.4 * of_ball * r * r, 10));
+    const double across = of_tube * (r * r / 4 + h * h / 3) + of_ball * (0.4 * r * r + h * h + 0.75 * h * r);
+    assert_true(is_near(mass.inertia[1][1], across, 10) && is_near(mass.inertia[2][2], across, 10));
+    assert_int_equal(pir_polytope_rounded_mass(segment, -1, &mass), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_rounded_mass(segment, INFINITY, &mass), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_rounded_mass(segment, NAN, &mass), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_polytope_rounded_mass(NULL, 1, &mass), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_rounded_mass(segment, 1, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_polytope_rounded_mass(segment, 1e150, &mass), PIR_ERR_LIMIT);
+    pir_polytope_release(ball);
+    pir_polytope_release(segment);
+}
+
+/*
+ * Any body, flat ones too: the mass of the hull of it and all directions of a geodesic sphere at its vertices, of two
+ * levels, extrapolated: errors fall as the square of the sphere's edges.
+ */
+static void a_grown_body_has_the_mass_of_what_it_is_near_to(void **state) {
+    (void)state;
+    test_random random = test_random_case("grown", 0);
+    static const test_body kinds[4] = {TEST_SPHERE, TEST_BOX, TEST_POLYGON, TEST_SEGMENT};
+    double worst = 0;
+    for (int n = 0; n < 8; n++) {
+        test_points points;
+        pir_mass mass, of[2];
+        test_body_points(&random, kinds[n % 4], 8, &points);
+        for (size_t i = 0; i < points.count; i++)
+            points.at[i] = test_add((pir_vec3){1, 2, 3}, points.at[i], 1. / (1 + test_length(points.at[i])));
+        pir_polytope *p = test_polytope(&points);
+        const double r = 0.5;
+        assert_int_equal(pir_polytope_rounded_mass(p, r, &mass), PIR_OK);
+        for (int level = 0; level < 2; level++) {
+            pir_polytope *ball, *grown;
+            assert_int_equal(pir_shape_create(level ? "geodesic?level=12" : "geodesic?level=6", NULL, NULL, &ball),
+                             PIR_OK);
+            const uint32_t count = pir_polytope_vertex_count(ball);
+            pir_vec3 *at = malloc((size_t)count * points.count * sizeof *at);
+            assert_non_null(at);
+            for (uint32_t v = 0; v < count; v++) {
+                const pir_vec3 x = pir_polytope_vertex(ball, v);
+                for (size_t i = 0; i < points.count; i++)
+                    at[v * points.count + i] = test_add(points.at[i], x, r / test_length(x));
+            }
+            assert_int_equal(pir_polytope_create(at, (size_t)count * points.count, NULL, &grown), PIR_OK);
+            assert_int_equal(pir_polytope_mass(grown, &of[level]), PIR_OK);
+            free(at);
+            pir_polytope_release(ball);
+            pir_polytope_release(grown);
+        }
+        worst = fmax(worst, fabs((4 * of[1].volume - of[0].volume) / 3 / mass.volume - 1));
+        worst = fmax(worst, test_length(test_add(of[1].centroid, mass.centroid, -1)));
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k < 3; k++)
+                worst = fmax(worst, fabs((4 * of[1].inertia[i][k] - of[0].inertia[i][k]) / 3 - mass.inertia[i][k]) /
+                                        mass.inertia[0][0]);
+        pir_polytope_release(p);
+    }
+    print_message("extrapolated masses differ by %.2g\n", worst);
+    assert_true(worst < 3e-3);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -337,6 +421,8 @@ int main(void) {
         cmocka_unit_test(two_halves_weigh_what_the_whole_does),
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(memory_that_fails_leaves_nothing_behind),
+        cmocka_unit_test(points_and_segments_are_balls_and_capsules),
+        cmocka_unit_test(a_grown_body_has_the_mass_of_what_it_is_near_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
+#include "scene/change/changes.h"
 #include "scene/world/grow.h"
 
 /* How many questions are worth another thread. */
@@ -59,6 +60,18 @@ static double size_of(const pir_scene_body *p, const pir_scene_body *q) {
     return p->reach + q->reach;
 }
 
+/* Adds the ways that a pair has taken since `before` to those of a worker. */
+static void count_ways(pir_scene_worker *worker, const pir_pair *pair, const pir_pair_statistics *before) {
+    const pir_pair_statistics now = pir_pair_get_statistics(pair);
+    pir_pair_statistics *ways = &worker->ways;
+    ways->by_proof += now.by_proof - before->by_proof;
+    ways->by_walk += now.by_walk - before->by_walk;
+    ways->by_nearest += now.by_nearest - before->by_nearest;
+    ways->by_depth += now.by_depth - before->by_depth;
+    ways->by_whole += now.by_whole - before->by_whole;
+    ways->manifolds += now.manifolds - before->manifolds;
+}
+
 static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t number) {
     pir_scene_pair *pair = &scene->pairs.at[number];
     const pir_scene_piece *piece = scene->bodies.piece;
@@ -98,13 +111,22 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
 
 static void ask_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     pir_scene_worker *worker = &scene->worker[task];
-    for (uint32_t i = begin; i < end; i++)
+    for (uint32_t i = begin; i < end; i++) {
+        const pir_pair *pair = scene->pairs.at[scene->lists.asked[i]].asked;
+        pir_pair_statistics before;
+        if (scene->profiles)
+            before = pir_pair_get_statistics(pair);
         pir_scene_worker_note(worker, ask(scene, worker, scene->lists.asked[i]), i);
+        if (scene->profiles)
+            count_ways(worker, pair, &before);
+    }
 }
 
 pir_status pir_scene_ask(pir_scene *scene) {
-    for (uint32_t i = 0; i < scene->threads; i++)
+    for (uint32_t i = 0; i < scene->threads; i++) {
         scene->worker[i].found_count = scene->worker[i].on_surface_count = scene->worker[i].contact_count = 0;
+        scene->worker[i].ways = (pir_pair_statistics){0};
+    }
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, scene->lists.asked_count, WORTH_MORE, ask_items);
     const pir_status status = pir_scene_workers_status(scene);
@@ -112,6 +134,6 @@ pir_status pir_scene_ask(pir_scene *scene) {
         return PIR_OK;
     const pir_scene_key key = pir_scene_key_of(scene, scene->lists.asked[pir_scene_workers_failed(scene)]);
     return pir_fail(scene->report, status, "update: bodies %u and %u, pieces %u and %u: %s",
-                    (unsigned)(key.bodies >> 32), (unsigned)key.bodies, (unsigned)(key.pieces >> 32),
+                    (unsigned)pir_key_body(key, 0), (unsigned)pir_key_body(key, 1), (unsigned)(key.pieces >> 32),
                     (unsigned)key.pieces, pir_status_text(status));
 }

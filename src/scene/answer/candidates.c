@@ -7,6 +7,7 @@
 #include "scene/answer/ask.h"
 #include "scene/answer/share.h"
 #include "scene/answer/triangle_pairs.h"
+#include "scene/change/changes.h"
 #include "scene/world/core_simplex.h"
 #include "scene/world/grow.h"
 #include "scene/world/surfaces.h"

@@ -9,16 +9,11 @@
 
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
+#include "scene/change/changes.h"
 #include "scene/world/grow.h"
 
 /* How many events are worth another thread. */
 #define WORTH_MORE 256
-
-pir_scene_key pir_scene_key_of(const pir_scene *scene, uint32_t pair) {
-    const uint32_t *of = scene->pairs.at[pair].piece;
-    const pir_scene_piece *p = &scene->bodies.piece[of[0]], *q = &scene->bodies.piece[of[1]];
-    return (pir_scene_key){(uint64_t)p->body << 32 | q->body, (uint64_t)p->number << 32 | q->number};
-}
 
 /* A byte of a key, the lowest first. */
 static inline uint32_t digit_of(const pir_scene_key *key, int digit) {
@@ -61,10 +56,13 @@ static uint32_t list_found(pir_scene *scene, const pir_scene_worker *worker, pir
     return count;
 }
 
-/* Lists what was found, and what was a contact and is none. */
+/* Lists what is gone, what was found, and what was a contact and is none. */
 static uint32_t list_items(pir_scene *scene) {
     pir_scene_lists *lists = &scene->lists;
     uint32_t count = 0;
+    // first, so that of equal keys an end stands before a new begin
+    for (; count < scene->gone_count; count++)
+        lists->item[count] = (pir_scene_item){scene->gone[count].key, NULL, NULL, PIR_END_NONE, count};
     for (uint32_t w = 0; w < scene->threads; w++) {
         const pir_scene_worker *worker = &scene->worker[w];
         count = list_found(scene, worker, worker->found, worker->found_count, count);
@@ -94,13 +92,26 @@ static double approach_of(const pir_scene *scene, const pir_scene_item *item, co
     return pir_vec_dot(pir_vec_sub(way_q, way_p), event->normal);
 }
 
+/* The end of a contact, from all that has to be known of it. */
+static pir_scene_event end_of(const pir_scene_gone *gone) {
+    return (pir_scene_event){.kind = PIR_EVENT_ENDED,
+                             .body_p = pir_key_body(gone->key, 0),
+                             .body_q = pir_key_body(gone->key, 1),
+                             .piece_p = (uint32_t)(gone->key.pieces >> 32),
+                             .piece_q = (uint32_t)gone->key.pieces,
+                             .user_p = gone->user[0],
+                             .user_q = gone->user[1],
+                             .piece_user_p = gone->piece_user[0],
+                             .piece_user_q = gone->piece_user[1],
+                             .sensor = gone->sensor};
+}
+
 static pir_scene_event event_of(const pir_scene *scene, const pir_scene_item *item) {
+    if (item->pair == PIR_END_NONE)
+        return end_of(&scene->gone[item->group]);
     const pir_scene_pair *pair = &scene->pairs.at[item->pair];
-    const pir_scene_piece *p = &scene->bodies.piece[pair->piece[0]], *q = &scene->bodies.piece[pair->piece[1]];
-    pir_scene_event event = {.kind = PIR_EVENT_ENDED, .body_p = p->body, .body_q = q->body};
-    event.piece_p = p->number;
-    event.piece_q = q->number;
-    event.sensor = scene->bodies.body[p->body].sensor || scene->bodies.body[q->body].sensor;
+    const pir_scene_gone named = pir_scene_name_contact(scene, item->pair);
+    pir_scene_event event = end_of(&named);
     const pir_scene_found *found = item->found;
     if (!found)
         return event;
@@ -147,10 +158,13 @@ pir_status pir_scene_make_events(pir_scene *scene) {
     const pir_allocator *a = &scene->allocator;
     if (!list_ended(scene))
         return PIR_ERR_MEMORY;
-    uint32_t most = lists->ended_count;
-    for (uint32_t w = 0; w < scene->threads; w++)
+    uint32_t most = lists->ended_count + scene->gone_count, found = 0;
+    for (uint32_t w = 0; w < scene->threads; w++) {
         most += scene->worker[w].found_count + scene->worker[w].on_surface_count;
-    if (!PIR_GROW(a, lists->item, lists->item_capacity, most) ||
+        found += scene->worker[w].found_count;
+    }
+    if (!PIR_GROW(a, scene->gone, scene->gone_capacity, scene->touching + found) ||
+        !PIR_GROW(a, lists->item, lists->item_capacity, most) ||
         !PIR_GROW(a, lists->work, lists->work_capacity, most) ||
         !PIR_GROW(a, scene->event, scene->event_capacity, most))
         return PIR_ERR_MEMORY;
@@ -160,7 +174,13 @@ pir_status pir_scene_make_events(pir_scene *scene) {
     pir_scene_share(scene, count, WORTH_MORE, make_items);
     // a pair may have several events, so this waits for all of them
     for (uint32_t i = 0; i < count; i++)
-        scene->pairs.at[lists->item[i].pair].touching = lists->item[i].found != NULL;
+        if (lists->item[i].pair != PIR_END_NONE) {
+            pir_scene_pair *pair = &scene->pairs.at[lists->item[i].pair];
+            const bool was = pair->touching;
+            pair->touching = lists->item[i].found != NULL;
+            scene->touching = scene->touching + pair->touching - was;
+        }
+    scene->gone_count = 0;
     scene->event_count = count;
     return PIR_OK;
 }

@@ -11,9 +11,6 @@
  */
 pir_status pir_scene_make_events(pir_scene *scene);
 
-/* The numbers by which the events of a pair are in order. */
-pir_scene_key pir_scene_key_of(const pir_scene *scene, uint32_t pair);
-
 /* Sorts by keys; `work` has room for as many. */
 void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count);
 

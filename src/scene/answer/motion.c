@@ -43,7 +43,7 @@ pir_status pir_scene_make_boxes(pir_scene *scene, const char *call, pir_report *
         return PIR_OK;
     const pir_scene_moved *first = &lists->moved[pir_scene_workers_failed(scene)];
     char of[32];
-    snprintf(of, sizeof of, "%s: body %u", call, (unsigned)first->body);
+    snprintf(of, sizeof of, "%s: body %u", call, (unsigned)pir_body_id(&scene->bodies, first->body));
     return pir_place_fail(first->pose, status, of, report);
 }
 

@@ -15,6 +15,7 @@
 #include "scene/answer/candidates.h"
 #include "scene/answer/events.h"
 #include "scene/answer/motion.h"
+#include "scene/answer/profile.h"
 #include "scene/answer/surface_contacts.h"
 #include "scene/world/grow.h"
 
@@ -30,14 +31,15 @@ static void put_move(pir_scene *scene, uint32_t body, pir_pose pose) {
 static pir_status take_move(pir_scene *scene, const pir_scene_move *move, size_t number) {
     const unsigned long at = (unsigned long)number;
     const unsigned named = move->body;
-    if (!pir_bodies_has(&scene->bodies, move->body))
+    const uint32_t index = pir_bodies_find(&scene->bodies, move->body);
+    if (index == PIR_SCENE_NONE)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: there is no body %u", at, named);
-    const pir_scene_body *body = &scene->bodies.body[move->body];
+    const pir_scene_body *body = &scene->bodies.body[index];
     if (body->kind == PIR_BODY_STATIC)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u is static", at, named);
     if (body->moved == scene->update)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "update: move %lu: body %u comes twice", at, named);
-    put_move(scene, move->body, move->pose);
+    put_move(scene, index, move->pose);
     return PIR_OK;
 }
 
@@ -71,14 +73,19 @@ static pir_status take_moves(pir_scene *scene, const pir_scene_move *moves, size
 
 /* Pairs, their answers and events. Fills the report. */
 static pir_status answer(pir_scene *scene) {
+    pir_scene_profile *profile = &scene->profile;
     pir_status status = pir_scene_find_pairs(scene);
+    pir_profile_part(scene, &profile->pairs_ns);
     if (status == PIR_OK)
         status = pir_scene_list_questions(scene);
+    pir_profile_part(scene, &profile->looks_ns);
     if (status != PIR_OK)
         return pir_fail(scene->report, status, "update: its pairs: %s", pir_status_text(status));
     status = pir_scene_ask(scene);
+    pir_profile_part(scene, &profile->questions_ns);
     if (status == PIR_OK && (scene->unions || scene->bodies.triangle_count > 0))
         status = pir_scene_find_surface_contacts(scene);
+    pir_profile_part(scene, &profile->unions_ns);
     if (status != PIR_OK)
         return status;
     status = pir_scene_make_events(scene);
@@ -94,10 +101,13 @@ pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_
     scene->update++;
     scene->event_count = scene->looked = 0;
     lists->moved_count = lists->replaced_count = lists->asked_count = lists->ended_count = 0;
+    pir_profile_begin(scene);
     status = take_moves(scene, moves, count);
+    pir_profile_part(scene, &scene->profile.places_ns);
     if (status != PIR_OK)
         return status;
     pir_scene_move_bodies(scene);
+    pir_profile_part(scene, &scene->profile.tree_ns);
     status = answer(scene);
     if (status != PIR_OK) {
         pir_scene_move_back(scene);
@@ -107,5 +117,7 @@ pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_
     for (uint32_t i = 0; i < scene->fresh_count; i++)
         scene->bodies.body[scene->fresh[i]].fresh = false;
     scene->fresh_count = 0;
+    pir_profile_part(scene, &scene->profile.events_ns);
+    pir_profile_end(scene);
     return PIR_OK;
 }

@@ -5,7 +5,7 @@
 #include "scene/world/triangles.h"
 
 pir_scene_shape pir_scene_shape_default(pir_polytope *polytope) {
-    return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE, NULL};
+    return (pir_scene_shape){polytope, pir_pose_identity(), 0, UINT32_MAX, PIR_SCENE_NONE, NULL, NULL};
 }
 
 pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pir_probe *ret_probe) {
@@ -27,7 +27,8 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
                        .radius = shape->radius,
                        .body = PIR_SCENE_NONE,
                        .mask = shape->mask,
-                       .except = shape->except};
+                       .except = pir_bodies_find(&scene->bodies, shape->except),
+                       .filter = shape->filter};
     if (!pir_place_box(&place, &probe.extent, shape->radius, &probe.box))
         return pir_fail(scene->report, PIR_ERR_LIMIT, "shape: it reaches beyond 2^60");
     *ret_probe = probe;
@@ -41,17 +42,37 @@ pir_probe pir_probe_of_piece(pir_scene *scene, const pir_scene_piece *p) {
                        .pose = body->pose,
                        .radius = body->radius,
                        .body = p->body,
+                       .piece_user = pir_piece_user(&scene->bodies, p),
                        .except = PIR_SCENE_NONE,
                        .box = p->tight};
 }
 
+void pir_name_impact(const pir_scene *scene, pir_impact *impact) {
+    if (impact->body == PIR_SCENE_NONE)
+        return;
+    impact->user = scene->bodies.body[impact->body].user;
+    impact->body = pir_body_id(&scene->bodies, impact->body);
+}
+
+/* Whether a body passes the caller's filter. */
+static bool passes(const pir_probe *probe, uint32_t body) {
+    const pir_query_filter *filter = probe->filter;
+    const pir_bodies *bodies = &probe->scene->bodies;
+    const uint32_t id = pir_body_id(bodies, body);
+    for (size_t i = 0; filter->ignored && i < filter->ignored_count; i++)
+        if (filter->ignored[i] == id)
+            return false;
+    return !filter->counts || filter->counts(filter->context, id, bodies->body[body].user);
+}
+
 bool pir_probe_meets(const pir_probe *probe, uint32_t body) {
     const pir_bodies *bodies = &probe->scene->bodies;
-    if (bodies->body[body].sensor)
+    if (bodies->body[body].sensor || bodies->body[body].disabled)
         return false;
     if (probe->body != PIR_SCENE_NONE)
         return pir_bodies_meet(bodies, probe->body, body);
-    return body != probe->except && (bodies->body[body].category & probe->mask) != 0;
+    return body != probe->except && (bodies->body[body].category & probe->mask) != 0 &&
+           (!probe->filter || passes(probe, body));
 }
 
 pir_box pir_probe_wider(const pir_probe *probe, double distance) {

@@ -15,8 +15,10 @@ typedef struct pir_probe {
     pir_extent extent;
     pir_pose pose;
     double radius;
-    uint32_t body; /* of the scene, whose rules hold then; or PIR_SCENE_NONE */
-    uint32_t mask, except;
+    uint32_t body;                  /* of the scene, whose rules hold then; or PIR_SCENE_NONE */
+    uint32_t mask, except;          /* the latter a number, or PIR_SCENE_NONE */
+    uint64_t piece_user;            /* of the piece */
+    const pir_query_filter *filter; /* the caller's, or NULL */
     pir_box box;
 } pir_probe;
 
@@ -25,6 +27,9 @@ pir_status pir_probe_of_shape(pir_scene *scene, const pir_scene_shape *shape, pi
 
 /* A piece of a body; of a triangle one that has its polytope. */
 pir_probe pir_probe_of_piece(pir_scene *scene, const pir_scene_piece *piece);
+
+/* Gives an impact the id of the body that is met and its user, in place of its number. */
+void pir_name_impact(const pir_scene *scene, pir_impact *impact);
 
 /* Whether the probe may meet a body of the scene. */
 bool pir_probe_meets(const pir_probe *probe, uint32_t body);

@@ -3,7 +3,9 @@
  * The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly, and over
  * triangles, each by doubles where these settle it.
  */
+#include "mesh/query/mesh_walk.h"
 #include "pair/flight.h"
+#include "scene/change/changes.h"
 #include "scene/query/core_flight.h"
 #include "scene/query/near_pieces.h"
 #include "scene/query/swept_pieces.h"
@@ -45,6 +47,7 @@ static void set_met(const struct flight *flight, const pir_scene_piece *piece, c
     met->impact = (pir_impact){.body = piece->body,
                                .piece_p = flight->own_piece,
                                .piece_q = piece->number,
+                               .piece_user = pir_piece_user(&flight->scene->bodies, piece),
                                .outcome = end->outcome,
                                .time = end->time,
                                .normal = end->answer.normal,
@@ -174,15 +177,17 @@ static bool look_at_triangle(void *context, const pir_met_triangle *met) {
     }
     if (!met_at.hits)
         return true;
-    const struct first_met hit = {.impact = {.body = on->number,
-                                             .piece_p = flight->own_piece,
-                                             .piece_q = met->number,
-                                             .outcome = PIR_CAST_HIT,
-                                             .time = met_at.time,
-                                             .normal = met_at.normal,
-                                             .point = met_at.point,
-                                             .witness = met_at.witness},
-                                  .depth = -1};
+    const struct first_met hit = {
+        .impact = {.body = on->number,
+                   .piece_p = flight->own_piece,
+                   .piece_q = met->number,
+                   .piece_user = pir_surface_material(pir_body_surface_of(on->body), met->number),
+                   .outcome = PIR_CAST_HIT,
+                   .time = met_at.time,
+                   .normal = met_at.normal,
+                   .point = met_at.point,
+                   .witness = met_at.witness},
+        .depth = -1};
     take(flight, &hit);
     return true;
 }
@@ -335,21 +340,25 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
         return status;
     struct first_met first = nothing;
     status = fly(&flight, &first);
-    if (status == PIR_OK)
-        *ret_impact = first.impact;
-    return status;
+    if (status != PIR_OK)
+        return status;
+    pir_name_impact(scene, &first.impact);
+    *ret_impact = first.impact;
+    return PIR_OK;
 }
 
-pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion, double tolerance,
+pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t id, const pir_motion *motion, double tolerance,
                                     pir_impact *ret_impact) {
     const char *missing = !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
     pir_status status = pir_scene_given(scene, "time of impact", missing);
     if (status != PIR_OK)
         return status;
-    if (!pir_bodies_has(&scene->bodies, body))
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: there is no body %u", (unsigned)body);
+    uint32_t body;
+    status = pir_scene_find_body(scene, "time of impact", id, &body);
+    if (status != PIR_OK)
+        return status;
     if (scene->bodies.body[body].sensor)
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)body);
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)id);
     status = check(scene, "time of impact", motion, tolerance);
     struct first_met first = nothing;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
@@ -363,7 +372,9 @@ pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_m
         status =
             pir_body_has_surface(&scene->bodies.body[body]) ? fly_surface(&flight, body, &first) : fly(&flight, &first);
     }
-    if (status == PIR_OK)
-        *ret_impact = first.impact;
-    return status;
+    if (status != PIR_OK)
+        return status;
+    pir_name_impact(scene, &first.impact);
+    *ret_impact = first.impact;
+    return PIR_OK;
 }

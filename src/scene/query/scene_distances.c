@@ -146,6 +146,7 @@ static pir_status look(void *context, pir_scene_piece *q) {
     gauge.piece = q;
     gauge.bounds = pir_far_bounds_of_boxes(&gauge.probe->box, &q->tight, slack_of(gauge.probe, q));
     gauge.known = (pir_scene_distance){.body = q->body, .piece = q->number, .state = PIR_OUTSIDE};
+    gauge.known.piece_user = pir_piece_user(&gauge.probe->scene->bodies, q);
     pir_status status = settle(&gauge, q);
     if (status == PIR_OK && !gauge.beyond)
         status = put(hold->told, gauge.known);
@@ -183,8 +184,11 @@ pir_status pir_scene_distances(pir_scene *scene, const pir_scene_shape *shape, d
         &(pir_near_search){.probe = &probe, .box = hold.box, .most = &most, .look = look, .context = &hold});
     if (status != PIR_OK)
         return status;
-    for (size_t i = 0; i < told.count && i < capacity; i++)
+    for (size_t i = 0; i < told.count && i < capacity; i++) {
         ret_distances[i] = scene->answers.distance[i];
+        ret_distances[i].user = scene->bodies.body[ret_distances[i].body].user;
+        ret_distances[i].body = pir_body_id(&scene->bodies, ret_distances[i].body);
+    }
     *ret_count = told.count;
     return PIR_OK;
 }

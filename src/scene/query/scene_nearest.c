@@ -60,7 +60,12 @@ static pir_status ask(const pir_probe *probe, uint32_t own_piece, pir_scene_piec
     pir_scene *scene = probe->scene;
     pir_pair *pair;
     pir_pair_input input;
-    pir_scene_near near = {probe->body, q->body, own_piece, q->number, {.distance = 0}};
+    pir_scene_near near = {.body_p = probe->body,
+                           .body_q = q->body,
+                           .piece_p = own_piece,
+                           .piece_q = q->number,
+                           .piece_user_p = probe->piece_user,
+                           .piece_user_q = pir_piece_user(&scene->bodies, q)};
     pir_status status = pir_probe_pair(probe, q, &pair, &input);
     if (status != PIR_OK)
         return fail(best, status, q);
@@ -157,8 +162,15 @@ static pir_status check(const struct best *best, const char *missing) {
 }
 
 static void give(const struct best *best, pir_scene_near *ret_near, size_t *ret_count) {
-    for (size_t i = 0; i < best->count; i++)
-        ret_near[i] = best->scene->answers.near[i];
+    const pir_bodies *bodies = &best->scene->bodies;
+    for (size_t i = 0; i < best->count; i++) {
+        pir_scene_near near = best->scene->answers.near[i];
+        near.user_p = near.body_p == PIR_SCENE_NONE ? 0 : bodies->body[near.body_p].user;
+        near.user_q = bodies->body[near.body_q].user;
+        near.body_p = near.body_p == PIR_SCENE_NONE ? PIR_SCENE_NONE : pir_body_id(bodies, near.body_p);
+        near.body_q = pir_body_id(bodies, near.body_q);
+        ret_near[i] = near;
+    }
     *ret_count = best->count;
 }
 
@@ -182,7 +194,7 @@ pir_status pir_scene_closest_pairs(pir_scene *scene, double cutoff, size_t most,
     pir_status status = check(&best, !ret_near ? "ret_near" : !ret_count ? "ret_count" : NULL);
     for (uint32_t b = 0; status == PIR_OK && b < scene->bodies.body_end; b++) {
         const pir_scene_body *body = &scene->bodies.body[b];
-        const bool is_seen = body->used && !body->sensor;
+        const bool is_seen = body->used && !body->sensor && !body->disabled;
         if (is_seen && pir_body_has_surface(body)) {
             status = hold_surface(scene, b, &best);
             continue;

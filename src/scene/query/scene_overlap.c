@@ -40,7 +40,10 @@ static pir_status look(void *context, pir_scene_piece *piece) {
     if (status == PIR_OK)
         status = pir_pair_overlap(pair, hits->probe->scene->worker[0].workspace, &input, &answer);
     if (status == PIR_OK && answer.state != PIR_OUTSIDE)
-        status = put(hits, (pir_scene_hit){piece->body, piece->number, answer.state});
+        status = put(hits, (pir_scene_hit){.body = piece->body,
+                                           .piece = piece->number,
+                                           .state = answer.state,
+                                           .piece_user = pir_piece_user(&hits->probe->scene->bodies, piece)});
     if (status != PIR_OK)
         return pir_fail(hits->probe->scene->report, status, "overlap: body %u, piece %u: %s", (unsigned)piece->body,
                         (unsigned)piece->number, pir_status_text(status));
@@ -62,8 +65,11 @@ pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, siz
         &(pir_near_search){.probe = &probe, .box = probe.box, .most = &most, .look = look, .context = &hits});
     if (status != PIR_OK)
         return status;
-    for (size_t i = 0; i < hits.count && i < capacity; i++)
+    for (size_t i = 0; i < hits.count && i < capacity; i++) {
         ret_hits[i] = scene->answers.hit[i];
+        ret_hits[i].user = scene->bodies.body[ret_hits[i].body].user;
+        ret_hits[i].body = pir_body_id(&scene->bodies, ret_hits[i].body);
+    }
     *ret_count = hits.count;
     return PIR_OK;
 }

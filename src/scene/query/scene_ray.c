@@ -92,8 +92,8 @@ static pir_status enter(const struct scene_ray *ray, pir_scene_piece *piece, pir
     pir_status status = pir_piece_ready(body, &scene->for_triangles, piece);
     if (status != PIR_OK)
         return status;
-    if (body->radius > 0) {
-        *entry = pir_ray_rounded(piece->extent.polytope, &segment, body->radius);
+    if (body->radius + ray->options.radius > 0) {
+        *entry = pir_ray_rounded(piece->extent.polytope, &segment, body->radius + ray->options.radius);
         return PIR_OK;
     }
     if (piece->kind != PIR_PIECE_TRIANGLE && pir_ray_by_doubles(piece->extent.polytope, &segment, entry))
@@ -112,13 +112,17 @@ static pir_status fail(const struct scene_ray *ray, pir_status status, const pir
 /* Takes the impact where the segment enters a piece of a body. */
 static pir_status take(struct scene_ray *ray, const pir_scene_piece *piece, const pir_entry *entry) {
     const pir_scene_body *body = &ray->scene->bodies.body[piece->body];
-    const pir_impact impact = {.body = piece->body,
-                               .piece_q = piece->number,
-                               .outcome = entry->inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
-                               .time = entry->time,
-                               .normal = is_at_origin(&body->pose) ? entry->normal
-                                                                   : pir_pose_rotate(body->pose, entry->normal),
-                               .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry->time))};
+    pir_impact impact = {.body = piece->body,
+                         .piece_q = piece->number,
+                         .piece_user = pir_piece_user(&ray->scene->bodies, piece),
+                         .outcome = entry->inside ? PIR_CAST_START_INSIDE : PIR_CAST_HIT,
+                         .time = entry->time,
+                         .normal =
+                             is_at_origin(&body->pose) ? entry->normal : pir_pose_rotate(body->pose, entry->normal),
+                         .point = pir_vec_add(ray->world.origin, pir_vec_scale(ray->world.way, entry->time))};
+    // of a ball that begins outside: where it touches
+    if (ray->options.radius > 0 && !entry->inside)
+        impact.point = pir_vec_sub(impact.point, pir_vec_scale(impact.normal, ray->options.radius));
     const pir_status status = ray->take(ray, &impact);
     return status == PIR_OK ? PIR_OK : fail(ray, status, piece);
 }
@@ -153,7 +157,7 @@ static pir_status enter_flat(const struct surface_ray *on, pir_scene_piece *piec
 
 static bool look_at_triangle(void *context, const pir_met_triangle *met) {
     struct surface_ray *on = context;
-    const bool is_rounded = on->body->radius > 0;
+    const bool is_rounded = on->body->radius + on->ray->options.radius > 0;
     pir_entry entry;
     pir_scene_piece piece = {.kind = PIR_PIECE_TRIANGLE, .body = on->number, .number = met->number};
     if (is_rounded || !pir_ray_by_corners(met->tri.p, &on->segment, &entry))
@@ -169,8 +173,8 @@ static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *b
         .ray = ray, .body = body, .number = (uint32_t)(body - ray->scene->bodies.body), .segment = seen_by(ray, body)};
     const pir_vec3 from = on.segment.from;
     // more than distances in doubles are off by
-    const double room = body->radius > 0 ? body->radius + 0x1p-30 * (body->reach + body->radius) : 0,
-                 pad = room + 2 * on.segment.error;
+    const double radius = body->radius + ray->options.radius,
+                 room = radius > 0 ? radius + 0x1p-30 * (body->reach + radius) : 0, pad = room + 2 * on.segment.error;
     const double low[3] = {from.x - pad, from.y - pad, from.z - pad},
                  high[3] = {from.x + pad, from.y + pad, from.z + pad};
     const pir_swept_box swept = pir_swept_box_of(low, high, on.segment.way);
@@ -212,6 +216,10 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
         return status;
     if (used.sides < PIR_RAY_AS_SURFACE || used.sides > PIR_RAY_BOTH)
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "ray: there are no sides %d", (int)used.sides);
+    if (isnan(used.radius))
+        return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "ray: its radius is not a number");
+    if (!(used.radius >= 0 && used.radius <= PIR_BOX_FARTHEST))
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "ray: its radius is %g, not from 0 to 2^60", used.radius);
     if (!pir_vec_is_finite(world.origin) || !pir_vec_is_finite(world.way))
         return pir_fail(scene->report, PIR_ERR_NOT_FINITE, "ray: its %s is not finite",
                         pir_vec_is_finite(world.origin) ? "way" : "origin");
@@ -220,9 +228,19 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
     if (!(length(world.way) <= PIR_BOX_FARTHEST))
         return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its way is longer than 2^60");
     *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
-    const double from[3] = {world.origin.x, world.origin.y, world.origin.z};
-    ray->swept = pir_swept_box_of(from, from, world.way);
-    ray->probe = (pir_probe){.scene = scene, .body = PIR_SCENE_NONE, .mask = used.mask, .except = used.except};
+    const double at[3] = {world.origin.x, world.origin.y, world.origin.z};
+    double low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        const double pad = used.radius > 0 ? used.radius + 0x1p-40 * (fabs(at[k]) + used.radius) : 0;
+        low[k] = at[k] - pad;
+        high[k] = at[k] + pad;
+    }
+    ray->swept = pir_swept_box_of(low, high, world.way);
+    ray->probe = (pir_probe){.scene = scene,
+                             .body = PIR_SCENE_NONE,
+                             .mask = used.mask,
+                             .except = pir_bodies_find(&scene->bodies, used.except),
+                             .filter = used.filter};
     return PIR_OK;
 }
 
@@ -234,19 +252,56 @@ static pir_status take_first(struct scene_ray *ray, const pir_impact *impact) {
     return PIR_OK;
 }
 
-pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask, pir_impact *ret_impact) {
-    struct scene_ray ray;
-    pir_scene_ray_options options = pir_scene_ray_options_default();
-    options.mask = mask;
-    pir_status status = begin(scene, ret_impact ? NULL : "ret_impact", (pir_world_ray){origin, way}, &options, &ray);
+static const pir_impact no_impact = {
+    .body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
+
+/* The first hit of a ray that was begun. */
+static pir_status find_first(struct scene_ray *ray, pir_impact *ret_impact) {
+    ray->take = take_first;
+    ray->first = no_impact;
+    const pir_status status = search(ray);
     if (status != PIR_OK)
         return status;
-    ray.take = take_first;
-    ray.first = (pir_impact){.body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1};
-    status = search(&ray);
-    if (status == PIR_OK)
-        *ret_impact = ray.first;
-    return status;
+    pir_name_impact(ray->scene, &ray->first);
+    *ret_impact = ray->first;
+    return PIR_OK;
+}
+
+pir_status pir_scene_ray_first(pir_scene *scene, pir_vec3 origin, pir_vec3 way, const pir_scene_ray_options *options,
+                               pir_impact *ret_impact) {
+    struct scene_ray ray;
+    const pir_status status =
+        begin(scene, ret_impact ? NULL : "ret_impact", (pir_world_ray){origin, way}, options, &ray);
+    return status == PIR_OK ? find_first(&ray, ret_impact) : status;
+}
+
+pir_status pir_scene_ray(pir_scene *scene, pir_vec3 origin, pir_vec3 way, uint32_t mask, pir_impact *ret_impact) {
+    pir_scene_ray_options options = pir_scene_ray_options_default();
+    options.mask = mask;
+    return pir_scene_ray_first(scene, origin, way, &options, ret_impact);
+}
+
+pir_status pir_scene_ray_batch(pir_scene *scene, const pir_scene_segment *segments, size_t count,
+                               const pir_scene_ray_options *options, pir_impact *ret_impacts) {
+    const char *missing = count == 0 ? NULL : !segments ? "segments" : !ret_impacts ? "ret_impacts" : NULL;
+    pir_status status = pir_scene_given(scene, "ray", missing);
+    if (status != PIR_OK || count == 0)
+        return status;
+    if (count > UINT32_MAX / 2)
+        return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: more than 2^31 segments");
+    pir_scene_answers *answers = &scene->answers;
+    if (!PIR_GROW(&scene->allocator, answers->impact, answers->impact_capacity, (uint32_t)count))
+        return pir_fail(scene->report, PIR_ERR_MEMORY, "ray: no memory for %zu impacts", count);
+    for (size_t i = 0; i < count; i++) {
+        struct scene_ray ray;
+        status = begin(scene, NULL, (pir_world_ray){segments[i].origin, segments[i].way}, options, &ray);
+        if (status == PIR_OK)
+            status = find_first(&ray, &answers->impact[i]);
+        if (status != PIR_OK)
+            return status;
+    }
+    memcpy(ret_impacts, answers->impact, count * sizeof *ret_impacts);
+    return PIR_OK;
 }
 
 static pir_status take_any(struct scene_ray *ray, const pir_impact *impact) {
@@ -297,8 +352,10 @@ pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3 way, co
     status = search(&ray);
     if (status != PIR_OK)
         return status;
-    for (size_t i = 0; i < ray.count && i < capacity; i++)
+    for (size_t i = 0; i < ray.count && i < capacity; i++) {
         ret_impacts[i] = scene->answers.impact[i];
+        pir_name_impact(scene, &ret_impacts[i]);
+    }
     *ret_count = ray.count;
     return PIR_OK;
 }

@@ -5,6 +5,7 @@
 #include "base/processor.h"
 #include "base/report.h"
 #include "exact/rotation.h"
+#include "mesh/query/mesh_walk.h"
 #include "polytope/polytope.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
@@ -142,16 +143,26 @@ pir_status pir_pieces_reserve(pir_bodies *bodies, const pir_allocator *allocator
     return has_room ? PIR_OK : PIR_ERR_MEMORY;
 }
 
+/* The number that the next body gets: the least that is free and has a generation left. */
+static uint32_t next_number(const pir_bodies *bodies) {
+    uint32_t body = bodies->body_count == bodies->body_end ? bodies->body_end : 0;
+    while (body < bodies->body_slots &&
+           (bodies->body[body].used || bodies->body[body].generation == PIR_GENERATIONS_LAST))
+        body++;
+    return body;
+}
+
 pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces) {
-    if (bodies->body_count >= PIR_BODIES_MAX)
+    const uint32_t next = next_number(bodies);
+    if (next >= PIR_BODIES_MAX)
         return PIR_ERR_LIMIT;
-    if (bodies->body_count == bodies->body_capacity && !grow_bodies(bodies, allocator))
+    if (next == bodies->body_capacity && !grow_bodies(bodies, allocator))
         return PIR_ERR_MEMORY;
     return pir_pieces_reserve(bodies, allocator, pieces);
 }
 
 /* A piece of a body: `extent` is what it holds. */
-static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_extent extent) {
+static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_extent extent, uint64_t user) {
     uint32_t piece = bodies->piece_unused;
     bodies->piece_unused = bodies->piece[piece].next;
     bodies->piece_count++;
@@ -161,6 +172,7 @@ static void add_piece(pir_bodies *bodies, uint32_t body, uint32_t number, pir_ex
                                              .next = bodies->body[body].first,
                                              .node = PIR_PIECE_NONE,
                                              .first = PIR_NO_END,
+                                             .user = user,
                                              .kind = (uint8_t)(extent.polytope ? PIR_PIECE_CONVEX : PIR_PIECE_SURFACE)};
     bodies->body[body].first = piece;
     bodies->body[body].reach = fmax(bodies->body[body].reach, bodies->piece[piece].extent.reach);
@@ -170,7 +182,7 @@ static void add_pieces(pir_bodies *bodies, uint32_t body, const pir_body_options
     for (uint32_t i = options->piece_count; i-- > 0;) {
         pir_extent extent = pir_extent_of(pir_polytope_retain(options->pieces[i]));
         extent.coarse = options->coarse ? pir_coarse_retain(options->coarse[i]) : NULL;
-        add_piece(bodies, body, i, extent);
+        add_piece(bodies, body, i, extent, options->piece_users ? options->piece_users[i] : 0);
     }
 }
 
@@ -179,18 +191,49 @@ static void add_surface(pir_bodies *bodies, uint32_t body, const pir_body_option
     const pir_surface_ref of = {options->mesh, options->field};
     surface->mesh = options->mesh ? pir_trimesh_retain(options->mesh) : NULL;
     surface->field = options->field ? pir_height_field_retain(options->field) : NULL;
-    surface->hash = pir_surface_hash(of);
     surface->skin = options->kind == PIR_BODY_STATIC ? 0 : pir_surface_skin(of);
     surface->triangles = PIR_PIECE_NONE;
-    add_piece(bodies, body, 0, (pir_extent){NULL, NULL, pir_surface_farthest(of)});
+    add_piece(bodies, body, 0, (pir_extent){NULL, NULL, pir_surface_farthest(of)}, 0);
 }
 
-uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place) {
-    uint32_t body = 0;
-    while (body < bodies->body_end && bodies->body_count < bodies->body_end && bodies->body[body].used)
-        body++;
-    if (bodies->body_count == bodies->body_end)
-        body = bodies->body_end++;
+/* FNV-1a over words, folded. */
+static uint64_t hash_word(uint64_t hash, uint64_t word) {
+    hash = (hash ^ word) * UINT64_C(0x100000001b3);
+    return hash ^ hash >> 29;
+}
+
+static uint64_t hash_polytope(uint64_t hash, const pir_polytope *p) {
+    hash = hash_word(hash_word(hash, p->vertex_count), p->facet_count);
+    for (uint32_t v = 0; v < p->vertex_count; v++) {
+        uint64_t bits[3];
+        memcpy(bits, &p->vertex[v], sizeof bits);
+        for (int k = 0; k < 3; k++)
+            hash = hash_word(hash, bits[k]);
+    }
+    return hash;
+}
+
+uint64_t pir_shape_hash(const pir_body_options *options) {
+    if (!options->pieces)
+        return pir_surface_hash((pir_surface_ref){options->mesh, options->field});
+    uint64_t hash = hash_word(UINT64_C(0xcbf29ce484222325), options->piece_count);
+    for (uint32_t i = 0; i < options->piece_count; i++)
+        hash = hash_polytope(hash, options->pieces[i]);
+    return hash;
+}
+
+bool pir_bodies_reach(pir_bodies *bodies, const pir_allocator *allocator, uint32_t numbers) {
+    while (bodies->body_capacity < numbers)
+        if (!grow_bodies(bodies, allocator))
+            return false;
+    for (; bodies->body_slots < numbers; bodies->body_slots++)
+        bodies->body[bodies->body_slots] = (pir_scene_body){.used = false};
+    return true;
+}
+
+void pir_bodies_put(pir_bodies *bodies, uint32_t body, uint32_t generation, const pir_body_options *options,
+                    const pir_place *place) {
+    bodies->body_end = body < bodies->body_end ? bodies->body_end : body + 1;
     bodies->body_count++;
     bodies->body[body] = (pir_scene_body){.pose = place->pose,
                                           .previous = place->pose,
@@ -203,15 +246,26 @@ uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, con
                                           .used = true,
                                           .sensor = options->sensor != 0,
                                           .fresh = true,
+                                          .disabled = options->disabled != 0,
+                                          .generation = (uint16_t)generation,
+                                          .user = options->user,
+                                          .shape = pir_shape_hash(options),
                                           .kind = (uint8_t)options->kind};
     if (options->pieces)
         add_pieces(bodies, body, options);
     else
         add_surface(bodies, body, options);
+}
+
+uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place) {
+    const uint32_t body = next_number(bodies);
+    if (body == bodies->body_slots)
+        bodies->body[bodies->body_slots++] = (pir_scene_body){.used = false};
+    pir_bodies_put(bodies, body, bodies->body[body].generation, options, place);
     return body;
 }
 
-void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
+void pir_bodies_empty(pir_bodies *bodies, uint32_t body) {
     uint32_t piece = bodies->body[body].first;
     while (pir_body_has_surface(&bodies->body[body]) && bodies->body[body].surface.triangles != PIR_PIECE_NONE)
         pir_triangles_remove(bodies, bodies->body[body].surface.triangles);
@@ -228,10 +282,19 @@ void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
         bodies->piece_count--;
         piece = next;
     }
-    bodies->body[body] = (pir_scene_body){.used = false};
-    bodies->body_count--;
+}
+
+void pir_bodies_trim(pir_bodies *bodies) {
     while (bodies->body_end > 0 && !bodies->body[bodies->body_end - 1].used)
         bodies->body_end--;
+}
+
+void pir_bodies_remove(pir_bodies *bodies, uint32_t body) {
+    const uint16_t generation = bodies->body[body].generation;
+    pir_bodies_empty(bodies, body);
+    bodies->body[body] = (pir_scene_body){.used = false, .generation = (uint16_t)(generation + 1)};
+    bodies->body_count--;
+    pir_bodies_trim(bodies);
 }
 
 /* --- motion --- */
@@ -243,8 +306,34 @@ void pir_bodies_travel(pir_scene_body *body, const pir_place *place) {
     body->surface.drift = (body->surface.drift + step * (1 + 0x1p-40)) * (1 + 0x1p-51);
 }
 
+/* Whether the kinds of two bodies, one a sensor or none, let them meet. */
+static bool kinds_meet(const pir_scene_body *p, const pir_scene_body *q) {
+    if (p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING)
+        return true;
+    if (pir_body_has_surface(p) && pir_body_has_surface(q))
+        return false;
+    return (p->sensor && q->kind == PIR_BODY_KINEMATIC) || (q->sensor && p->kind == PIR_BODY_KINEMATIC);
+}
+
 bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b) {
     const pir_scene_body *p = &bodies->body[a], *q = &bodies->body[b];
-    return a != b && (p->kind == PIR_BODY_MOVING || q->kind == PIR_BODY_MOVING) && (p->category & q->mask) != 0 &&
+    return a != b && !p->disabled && !q->disabled && kinds_meet(p, q) && (p->category & q->mask) != 0 &&
            (q->category & p->mask) != 0 && !(p->sensor && q->sensor);
+}
+
+/* --- names --- */
+
+uint64_t pir_piece_user(const pir_bodies *bodies, const pir_scene_piece *piece) {
+    if (piece->kind != PIR_PIECE_TRIANGLE)
+        return piece->user;
+    return pir_surface_material(pir_body_surface_of(&bodies->body[piece->body]), piece->number);
+}
+
+uint32_t pir_bodies_piece(const pir_bodies *bodies, uint32_t body, uint32_t number) {
+    if (pir_body_has_surface(&bodies->body[body]))
+        return pir_triangles_find(bodies, body, number);
+    uint32_t piece = bodies->body[body].first;
+    while (piece != PIR_PIECE_NONE && bodies->piece[piece].number != number)
+        piece = bodies->piece[piece].next;
+    return piece;
 }

@@ -6,7 +6,8 @@
  * which are in pairs (triangles.h).
  *
  * Numbers of bodies are the least that are free; numbers of pieces are of the table's own, and a body has its pieces in
- * a list.
+ * a list. The inside of a scene knows bodies by their numbers, callers by ids: the generation above the number, which
+ * grows when a body is removed. A number whose generations are used up stays free.
  *
  * `travel` of a body bounds from above how far any of its points has moved since it was added, as the length of all
  * steps. It only grows. So two bodies that were apart by d are apart by at least d less what both have travelled since.
@@ -24,6 +25,9 @@
 #define PIR_NO_END     UINT32_MAX /* of a piece's list of pairs */
 #define PIR_BODIES_MAX ((uint32_t)1 << 20)
 #define PIR_PIECES_MAX 4096u /* of a body */
+
+#define PIR_NUMBER_BITS      20
+#define PIR_GENERATIONS_LAST 4095u /* of a number that is not given any more */
 
 /* A polytope, its coarse bodies or NULL, and the farthest that a vertex is from its origin, rounded up. */
 typedef struct pir_extent {
@@ -48,6 +52,7 @@ typedef struct pir_scene_piece {
     pir_trimesh *facets; /* of a convex piece: its boundary, or NULL until it is needed */
     uint64_t mark;       /* the visit that has seen it */
     uint64_t moved;      /* the update that moved its body last */
+    uint64_t user;       /* the caller's number */
     pir_box tight;       /* holds the piece with its radius and half of the scene's margin */
 } pir_scene_piece;
 
@@ -58,7 +63,6 @@ typedef struct pir_scene_piece {
 typedef struct pir_body_surface {
     pir_trimesh *mesh; /* referenced */
     pir_height_field *field;
-    uint64_t hash;      /* of its content */
     uint32_t triangles; /* a list of pieces */
     double skin, drift, previous_drift;
 } pir_body_surface;
@@ -71,8 +75,11 @@ typedef struct pir_scene_body {
     uint32_t first, pieces; /* the list; how many */
     uint32_t category, mask;
     uint64_t moved; /* the update that moved it last: `previous` is its pose before that */
-    bool used, sensor, fresh;
+    bool used, sensor, fresh, disabled;
     uint8_t kind;
+    uint16_t generation; /* of a number that is free: of the next body that gets it */
+    uint64_t user;
+    uint64_t shape; /* a hash of its pieces or its surface */
     pir_pose previous;
     pir_body_surface surface;
 } pir_scene_body;
@@ -87,6 +94,7 @@ typedef struct pir_bodies {
     pir_scene_body *body;
     pir_scene_piece *piece;
     uint32_t body_capacity, body_end, body_count;       /* bodies are below body_end */
+    uint32_t body_slots;                                /* numbers below this have been given */
     uint32_t piece_capacity, piece_unused, piece_count; /* the count is without triangles */
     uint32_t *triangle;                                 /* a table of the pieces that are triangles: triangles.c */
     uint32_t triangle_slots, triangle_count;
@@ -134,7 +142,7 @@ bool pir_place_box(const pir_place *place, const pir_extent *extent, double arou
 bool pir_piece_box(const pir_scene_body *body, const pir_scene_piece *piece, const pir_place *place, double around,
                    pir_box *ret_box);
 
-/* Room for one more body with so many pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
+/* Room for the next body with so many pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
 pir_status pir_bodies_reserve(pir_bodies *bodies, const pir_allocator *allocator, uint32_t pieces);
 
 /* Room for so many more pieces. PIR_ERR_LIMIT, PIR_ERR_MEMORY. */
@@ -143,6 +151,22 @@ pir_status pir_pieces_reserve(pir_bodies *bodies, const pir_allocator *allocator
 /* Puts in a body for which there is room, without boxes. */
 uint32_t pir_bodies_add(pir_bodies *bodies, const pir_body_options *options, const pir_place *place);
 void pir_bodies_remove(pir_bodies *bodies, uint32_t body);
+
+/* Puts in a body under a number that is free, in a generation; the table has that number. */
+void pir_bodies_put(pir_bodies *bodies, uint32_t body, uint32_t generation, const pir_body_options *options,
+                    const pir_place *place);
+
+/* Gives back all that a body holds; its number and the counts of bodies stay as they are. */
+void pir_bodies_empty(pir_bodies *bodies, uint32_t body);
+
+/* Sets body_end behind the last body. */
+void pir_bodies_trim(pir_bodies *bodies);
+
+/* Numbers below this are in the table, whether they were given or not. False when out of memory. */
+bool pir_bodies_reach(pir_bodies *bodies, const pir_allocator *allocator, uint32_t numbers);
+
+/* A number that two shapes of bodies share where they are the same bits, and hardly otherwise. O(vertices). */
+uint64_t pir_shape_hash(const pir_body_options *options);
 
 /* Adds the way from the body's pose to a place to what it has travelled. */
 void pir_bodies_travel(pir_scene_body *body, const pir_place *place);
@@ -163,9 +187,30 @@ static inline uint32_t pir_body_paired(const pir_scene_body *body) {
     return pir_body_has_surface(body) ? body->surface.triangles : body->first;
 }
 
-/* Whether there is such a body. */
-static inline bool pir_bodies_has(const pir_bodies *bodies, uint32_t body) {
-    return body < bodies->body_end && bodies->body[body].used;
+/* The caller's number for a piece; of a triangle its material, of a surface as a whole 0. */
+uint64_t pir_piece_user(const pir_bodies *bodies, const pir_scene_piece *piece);
+
+/* The piece of a body with a number, of a surface the triangle that is a piece, or PIR_PIECE_NONE. */
+uint32_t pir_bodies_piece(const pir_bodies *bodies, uint32_t body, uint32_t number);
+
+static inline uint32_t pir_body_id(const pir_bodies *bodies, uint32_t body) {
+    return (uint32_t)bodies->body[body].generation << PIR_NUMBER_BITS | body;
+}
+
+/* The number of the body with an id, or PIR_SCENE_NONE. */
+static inline uint32_t pir_bodies_find(const pir_bodies *bodies, uint32_t id) {
+    const uint32_t body = pir_body_number(id);
+    const bool has = body < bodies->body_end && bodies->body[body].used && pir_body_id(bodies, body) == id;
+    return has ? body : PIR_SCENE_NONE;
+}
+
+/* Ids turned so that they are in order of numbers, then generations; and back. */
+static inline uint32_t pir_id_order(uint32_t id) {
+    return id << (32 - PIR_NUMBER_BITS) | id >> PIR_NUMBER_BITS;
+}
+
+static inline uint32_t pir_id_of_order(uint32_t order) {
+    return order << PIR_NUMBER_BITS | order >> (32 - PIR_NUMBER_BITS);
 }
 
 #endif

@@ -2,6 +2,8 @@
 /* The life of a scene, its bodies coming and going: see scene.h. */
 #include "scene/world/scene.h"
 
+#include <pirouette/scene_file.h>
+
 #include "base/options.h"
 #include "scene/world/grow.h"
 #include "scene/world/surfaces.h"
@@ -75,6 +77,10 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     scene->margin = used.margin;
     scene->approach = used.approach;
     scene->unions = used.unions;
+    scene->keep_shapes = used.keep_shapes;
+    scene->profiles = used.profile;
+    scene->clock = used.clock;
+    scene->clock_context = used.clock_context;
     scene->report = used.report;
     pir_bodies_init(&scene->bodies);
     pir_scene_pairs_init(&scene->pairs);
@@ -105,6 +111,14 @@ static void finish_lists(pir_scene_lists *lists, const pir_allocator *a) {
     PIR_FREE(a, lists->work, lists->work_capacity);
 }
 
+static void finish_target(pir_scene_target *target, const pir_allocator *a) {
+    PIR_FREE(a, target->away, target->away_capacity);
+    PIR_FREE(a, target->box, target->box_capacity);
+    PIR_FREE(a, target->changed, target->changed_capacity);
+    PIR_FREE(a, target->piece, target->piece_capacity);
+    PIR_FREE(a, target->coarse, target->coarse_capacity);
+}
+
 void pir_scene_destroy(pir_scene *scene) {
     if (!scene)
         return;
@@ -131,9 +145,12 @@ void pir_scene_destroy(pir_scene *scene) {
     PIR_FREE(a, scene->answers.impact, scene->answers.impact_capacity);
     pir_tree_finish(&scene->tree, a);
     pir_bodies_finish(&scene->bodies, a);
+    pir_kept_shapes_drop(&scene->shapes, a);
     PIR_FREE(a, scene->fresh, scene->fresh_capacity);
+    PIR_FREE(a, scene->gone, scene->gone_capacity);
     PIR_FREE(a, scene->event, scene->event_capacity);
     finish_lists(&scene->lists, a);
+    finish_target(&scene->target, a);
     pir_blocks_finish(&scene->blocks);
     const pir_allocator base = scene->budget.base;
     pir_budget_finish(&scene->budget);
@@ -193,9 +210,7 @@ pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way) {
     return fat;
 }
 
-/* Boxes for the pieces of a body that was put in, and leaves of the tree. */
-static void put_leaves(pir_scene *scene, uint32_t body) {
-    const pir_box *box = scene->lists.box;
+void pir_scene_put_leaves(pir_scene *scene, uint32_t body, const pir_box *box) {
     bool is_static = scene->bodies.body[body].kind == PIR_BODY_STATIC;
     for (uint32_t i = scene->bodies.body[body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
         pir_scene_piece *piece = &scene->bodies.piece[i];
@@ -205,10 +220,9 @@ static void put_leaves(pir_scene *scene, uint32_t body) {
     }
 }
 
-/* The boxes of a body to be, for which there is room in the lists. PIR_ERR_LIMIT. */
-static pir_status make_boxes(pir_scene *scene, const pir_body_options *body, const pir_place *place) {
+pir_status pir_scene_body_boxes(const pir_scene *scene, const pir_body_options *body, const pir_place *place,
+                                pir_box *box) {
     const double around = body->radius + 0.5 * scene->margin;
-    pir_box *box = scene->lists.box;
     if (!body->pieces) {
         pir_vec3 corner[8];
         const pir_surface_ref surface = {body->mesh, body->field};
@@ -226,6 +240,24 @@ static pir_status make_boxes(pir_scene *scene, const pir_body_options *body, con
     return PIR_OK;
 }
 
+pir_status pir_scene_keep(pir_scene *scene, const pir_body_options *body) {
+    pir_body_options used = pir_body_options_default();
+    pir_status status = pir_scene_given(scene, "shape", body ? NULL : "body");
+    if (status == PIR_OK)
+        status = pir_options_take("pir_body_options", body, &used, &scene->report);
+    if (status == PIR_OK)
+        status = check_body(&used, scene->report);
+    if (status != PIR_OK)
+        return status;
+    status = pir_kept_shapes_add(&scene->shapes, &scene->allocator, &used, pir_shape_hash(&used));
+    return status == PIR_OK ? PIR_OK : pir_fail(scene->report, status, "shape: %s", pir_status_text(status));
+}
+
+void pir_scene_forget_shapes(pir_scene *scene) {
+    if (scene)
+        pir_kept_shapes_drop(&scene->shapes, &scene->allocator);
+}
+
 /* Adds a body whose options have been checked. */
 static pir_status add(pir_scene *scene, const pir_body_options *body, uint32_t *ret_body) {
     pir_place place;
@@ -241,13 +273,15 @@ static pir_status add(pir_scene *scene, const pir_body_options *body, uint32_t *
         !PIR_GROW(&scene->allocator, lists->box, lists->box_capacity, pieces) ||
         !PIR_GROW(&scene->allocator, scene->fresh, scene->fresh_capacity, scene->fresh_count + 1))
         return pir_fail(scene->report, PIR_ERR_MEMORY, "body: room for it: %s", pir_status_text(PIR_ERR_MEMORY));
-    status = make_boxes(scene, body, &place);
+    status = pir_scene_body_boxes(scene, body, &place, lists->box);
     if (status != PIR_OK)
         return status;
+    if (scene->keep_shapes && pir_scene_keep(scene, body) != PIR_OK)
+        return PIR_ERR_MEMORY;
     uint32_t added = pir_bodies_add(&scene->bodies, body, &place);
-    put_leaves(scene, added);
+    pir_scene_put_leaves(scene, added, lists->box);
     scene->fresh[scene->fresh_count++] = added;
-    *ret_body = added;
+    *ret_body = pir_body_id(&scene->bodies, added);
     return PIR_OK;
 }
 
@@ -261,58 +295,15 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
     return status == PIR_OK ? add(scene, &used, ret_body) : status;
 }
 
-void pir_scene_drop_pair(pir_scene *scene, uint32_t pair) {
-    pir_scene_piece *pieces = scene->bodies.piece;
-    const uint32_t of[2] = {scene->pairs.at[pair].piece[0], scene->pairs.at[pair].piece[1]};
-    pir_scene_pairs_drop(&scene->pairs, pair, &pieces[of[0]].first, &pieces[of[1]].first);
-    for (int side = 0; side < 2; side++)
-        if (pieces[of[side]].kind == PIR_PIECE_TRIANGLE && pieces[of[side]].first == PIR_END_NONE)
-            pir_triangles_remove(&scene->bodies, of[side]);
-}
-
-/* Drops all pairs that a piece is in, or its triangles are. */
-static void drop_pairs(pir_scene *scene, uint32_t piece) {
-    const pir_scene_piece *pieces = scene->bodies.piece;
-    const pir_body_surface *surface = &scene->bodies.body[pieces[piece].body].surface;
-    while (pieces[piece].first != PIR_END_NONE)
-        pir_scene_drop_pair(scene, pieces[piece].first / 2);
-    while (pieces[piece].kind == PIR_PIECE_SURFACE && surface->triangles != PIR_PIECE_NONE)
-        pir_scene_drop_pair(scene, pieces[surface->triangles].first / 2);
-}
-
-pir_status pir_scene_remove(pir_scene *scene, uint32_t body) {
-    if (!scene)
-        return PIR_ERR_ARGUMENT;
-    if (!pir_bodies_has(&scene->bodies, body))
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "remove: there is no body %u", (unsigned)body);
-    for (uint32_t i = scene->bodies.body[body].first; i != PIR_PIECE_NONE; i = scene->bodies.piece[i].next) {
-        drop_pairs(scene, i);
-        pir_tree_remove(&scene->tree, scene->bodies.piece[i].node);
-    }
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < scene->fresh_count; i++)
-        if (scene->fresh[i] != body)
-            scene->fresh[kept++] = scene->fresh[i];
-    scene->fresh_count = kept;
-    pir_bodies_remove(&scene->bodies, body);
-    return PIR_OK;
-}
-
 /* --- reading --- */
-
-pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose) {
-    const pir_status status = pir_scene_given(scene, "pose", ret_pose ? NULL : "ret_pose");
-    if (status != PIR_OK)
-        return status;
-    if (!pir_bodies_has(&scene->bodies, body))
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "pose: there is no body %u", (unsigned)body);
-    *ret_pose = scene->bodies.body[body].pose;
-    return PIR_OK;
-}
 
 const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count) {
     *ret_count = scene->event_count;
     return scene->event_count > 0 ? scene->event : NULL;
+}
+
+pir_scene_profile pir_scene_get_profile(const pir_scene *scene) {
+    return scene->profile;
 }
 
 pir_scene_statistics pir_scene_get_statistics(const pir_scene *scene) {

@@ -8,7 +8,8 @@
  *     bodies have been added since the last update, and have none yet. A surface as a whole has no pairs; each of its
  *     triangles whose tight box meets a piece's box in the tree has one with that piece.
  *   - pair.touching says whether the last update that looked at the pair found a contact. Pieces whose tight boxes do
- *     not meet have none.
+ *     not meet have none. `touching` is the number of such pairs.
+ *   - There is room in `gone` for all pairs in contact besides those that it has, so that a body can always be removed.
  */
 #ifndef PIR_SCENE_WORLD_SCENE_H
 #define PIR_SCENE_WORLD_SCENE_H
@@ -19,6 +20,7 @@
 #include "base/report.h"
 #include "exact/rotation.h"
 #include "scene/pairs/pairs.h"
+#include "scene/shapes/kept_shapes.h"
 #include "scene/tasks/tasks.h"
 #include "scene/tree/tree.h"
 #include "scene/world/blocks.h"
@@ -56,16 +58,25 @@ typedef struct pir_scene_worker {
     pir_surface_contact *met;
     const pir_polytope **beside; /* the pieces next to the one that is asked */
     uint32_t surface_capacity, met_capacity, beside_capacity;
-    pir_status status; /* of the item with the least number that failed, in this batch of work */
+    pir_pair_statistics ways; /* of its questions, where they are counted */
+    pir_status status;        /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
 
-/* The numbers by which contacts are in order: of both bodies, P's first, then of both pieces. */
+/* The numbers by which contacts are in order: of both bodies, P's first (pir_id_order), then of both pieces. */
 typedef struct pir_scene_key {
     uint64_t bodies, pieces;
 } pir_scene_key;
 
-/* An event to be: what was found of a pair, or NULL where the contact ended. */
+/* A contact that ended between updates, for one of its bodies was removed or changed: the next update tells it. */
+typedef struct pir_scene_gone {
+    pir_scene_key key;
+    uint64_t user[2], piece_user[2];
+    bool sensor;
+} pir_scene_gone;
+
+/* An event to be: what was found of a pair, or NULL where the contact ended. Of what is gone the pair is none, and
+   `group` its place in the list. */
 typedef struct pir_scene_item {
     pir_scene_key key;
     const pir_scene_worker *worker;
@@ -117,6 +128,30 @@ typedef struct pir_scene_answers {
     uint32_t hit_capacity, near_capacity, distance_capacity, impact_capacity;
 } pir_scene_answers;
 
+/* A body that a restore takes away, or the number that it gives to one that it makes. */
+typedef struct pir_scene_away {
+    uint32_t number, box; /* the first of its boxes in the tree */
+    pir_scene_body body;  /* as it was */
+    bool is_made;         /* whether another stands there now */
+} pir_scene_away;
+
+/* A body that stays, as it was before a restore changed it. */
+typedef struct pir_scene_changed {
+    uint32_t number, category, mask;
+    bool sensor, disabled, fresh;
+} pir_scene_changed;
+
+/* The lists of a restore; the memory stays. */
+typedef struct pir_scene_target {
+    pir_scene_away *away;
+    pir_box *box; /* in the tree, of the pieces of those */
+    pir_scene_changed *changed;
+    pir_polytope **piece; /* of a body that is made */
+    pir_coarse **coarse;
+    uint32_t away_capacity, box_capacity, changed_capacity, piece_capacity, coarse_capacity;
+    uint32_t away_count, box_count, changed_count;
+} pir_scene_target;
+
 struct pir_scene {
     pir_budget budget;
     pir_allocator allocator; /* of the budget */
@@ -124,7 +159,7 @@ struct pir_scene {
     pir_allocator for_triangles;
     pir_scene_detail detail;
     double margin;
-    bool approach, unions;
+    bool approach, unions, keep_shapes;
     pir_report *report; /* the caller's, or NULL */
     uint32_t threads;
     pir_tasks tasks;
@@ -132,16 +167,25 @@ struct pir_scene {
     pir_scene_worker *worker;
 
     pir_bodies bodies;
+    pir_kept_shapes shapes;
     pir_tree tree;
     pir_scene_pairs pairs;
     pir_pair *spare; /* of queries, or NULL */
     pir_exact_room exact_room;
     pir_scene_answers answers;
-    uint32_t *fresh; /* bodies added since the last update */
+    uint32_t *fresh; /* bodies added or changed since the last update */
     uint32_t fresh_capacity, fresh_count;
+    pir_scene_gone *gone;
+    uint32_t gone_capacity, gone_count, touching;
 
     uint64_t update, visit; /* numbers of the last ones */
+    bool profiles;
+    uint64_t (*clock)(void *context); /* or NULL */
+    void *clock_context;
+    uint64_t part_began; /* by the clock */
+    pir_scene_profile profile;
     pir_scene_lists lists;
+    pir_scene_target target;
     pir_scene_event *event;
     uint32_t event_capacity, event_count, looked;
 };
@@ -154,11 +198,20 @@ static inline double pir_scene_around(const pir_scene *scene, const pir_scene_bo
     return body->radius + 0.5 * scene->margin;
 }
 
+/* Gives the pieces of a body that was put in their boxes, those of scene->lists.box from `box` on, and leaves. */
+void pir_scene_put_leaves(pir_scene *scene, uint32_t body, const pir_box *box);
+
+/* The boxes of a body to be, for which there is room from `box` on. PIR_ERR_LIMIT, told. */
+pir_status pir_scene_body_boxes(const pir_scene *scene, const pir_body_options *body, const pir_place *place,
+                                pir_box *box);
+
 /* PIR_ERR_ARGUMENT where there is no scene, or a parameter is `missing`: the name of one that is NULL, or NULL. */
 pir_status pir_scene_given(const pir_scene *scene, const char *call, const char *missing);
 
-/* Drops a pair; a triangle that is in no other goes as well. */
-void pir_scene_drop_pair(pir_scene *scene, uint32_t pair);
+/* The id of the body on a side of a key. */
+static inline uint32_t pir_key_body(pir_scene_key key, int side) {
+    return pir_id_of_order((uint32_t)(key.bodies >> (side == 0 ? 32 : 0)));
+}
 
 /* Errors of a batch of work: begins one; keeps what became of an item; the error of the first that failed. */
 static inline void pir_scene_workers_begin(pir_scene *scene) {
