@@ -27,33 +27,33 @@
 #define RUNS_EACH 8
 
 /* Padded to lines of the cache, which no two lanes share. */
-typedef struct lane {
+typedef struct batch_lane {
     pir_pair *pair;
     pir_workspace *workspace;
     size_t bad, first_bad;
     pir_status first_status;
     char padding[128 - 4 * sizeof(void *) - sizeof(pir_status)];
-} lane;
+} batch_lane;
 
 struct pir_pair_batch {
     pir_allocator allocator;
     pir_tasks tasks;
     pir_task_pool *pool; /* NULL where the caller brings threads, or there is one */
     uint32_t threads, run;
-    lane *lane; /* `threads` of them */
+    batch_lane *lane; /* `threads` of them */
 };
 
 typedef pir_status asker(pir_pair *, pir_workspace *, const pir_pair_input *, pir_query_result *);
 
 /* One call. */
-typedef struct job {
+typedef struct batch_job {
     pir_pair_batch *batch;
     asker *ask;
     const pir_pair_batch_input *input;
     const pir_pair_batch_arrays *arrays;
     size_t count, run;
     atomic_size_t next; /* poses below have been taken */
-} job;
+} batch_job;
 
 /* --- the object --- */
 
@@ -61,7 +61,7 @@ static pir_status make_lanes(pir_polytope *p, pir_polytope *q, pir_pair_batch *b
     const pir_allocator *a = &batch->allocator;
     pir_pair_options options = pir_pair_options_default();
     options.allocator = a;
-    batch->lane = PIR_ZEROED(a, lane, batch->threads);
+    batch->lane = PIR_ZEROED(a, batch_lane, batch->threads);
     pir_status status = batch->lane ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < batch->threads && status == PIR_OK; i++) {
         status = pir_workspace_create(a, &batch->lane[i].workspace);
@@ -183,7 +183,7 @@ static inline void write_answer(const pir_pair_batch_arrays *to, size_t i, const
 }
 
 /* A pose without an answer. */
-static void write_bad(const job *job, lane *lane, size_t i, pir_status status) {
+static void write_bad(const batch_job *job, batch_lane *lane, size_t i, pir_status status) {
     const pir_pair_batch_arrays *to = job->arrays;
     const pir_vec3 none = {NAN, NAN, NAN};
     if (to->state)
@@ -211,7 +211,7 @@ static void write_bad(const job *job, lane *lane, size_t i, pir_status status) {
 }
 
 /* The manifold of an answer. */
-static pir_status write_contacts(const job *job, lane *lane, size_t i, const pir_pair_input *input,
+static pir_status write_contacts(const batch_job *job, batch_lane *lane, size_t i, const pir_pair_input *input,
                                  const pir_query_result *result) {
     const pir_pair_batch_arrays *to = job->arrays;
     size_t count = 0;
@@ -225,7 +225,7 @@ static pir_status write_contacts(const job *job, lane *lane, size_t i, const pir
 
 /* --- all poses --- */
 
-static void answer_run(const job *job, lane *lane, size_t begin, size_t end) {
+static void answer_run(const batch_job *job, batch_lane *lane, size_t begin, size_t end) {
     pir_pair_input input = pir_pair_input_default();
     input.radius_p = job->input->radius_p;
     input.radius_q = job->input->radius_q;
@@ -246,8 +246,8 @@ static void answer_run(const job *job, lane *lane, size_t begin, size_t end) {
 }
 
 static void work(void *data, uint32_t task) {
-    job *job = data;
-    lane *lane = &job->batch->lane[task];
+    batch_job *job = data;
+    batch_lane *lane = &job->batch->lane[task];
     for (;;) {
         const size_t begin = atomic_fetch_add_explicit(&job->next, job->run, memory_order_relaxed);
         if (begin >= job->count)
@@ -264,7 +264,7 @@ static size_t run_of(const pir_pair_batch *batch, size_t count) {
     return run < RUN_LEAST ? RUN_LEAST : run > RUN_MOST ? RUN_MOST : run;
 }
 
-static void answer_all(pir_pair_batch *batch, job *job) {
+static void answer_all(pir_pair_batch *batch, batch_job *job) {
     for (uint32_t i = 0; i < batch->threads; i++) {
         batch->lane[i].bad = 0;
         batch->lane[i].first_bad = job->count;
@@ -284,7 +284,7 @@ static void answer_all(pir_pair_batch *batch, job *job) {
 static pir_pair_batch_summary sum_up(const pir_pair_batch *batch, size_t count) {
     pir_pair_batch_summary summary = {0, count, PIR_OK};
     for (uint32_t i = 0; i < batch->threads; i++) {
-        const lane *lane = &batch->lane[i];
+        const batch_lane *lane = &batch->lane[i];
         summary.bad += lane->bad;
         if (lane->first_bad < summary.first_bad) {
             summary.first_bad = lane->first_bad;
@@ -324,7 +324,7 @@ static pir_status ask_many(pir_pair_batch *batch, asker *ask, const pir_pair_bat
     const pir_status status = check(input, arrays, ask == pir_pair_signed_distance);
     if (status != PIR_OK)
         return status;
-    job job = {.batch = batch, .ask = ask, .input = input, .arrays = arrays, .count = count};
+    batch_job job = {.batch = batch, .ask = ask, .input = input, .arrays = arrays, .count = count};
     atomic_init(&job.next, 0);
     answer_all(batch, &job);
     if (ret_summary)
