@@ -5,7 +5,7 @@
 
 #include <pirouette/events.h>
 
-#include "motion/changes.h"
+#include "motion/facet_changes.h"
 
 struct pir_events {
     pir_movers movers;

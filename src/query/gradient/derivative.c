@@ -61,19 +61,19 @@ void pir_gradient_fill(const pir_decider *decider, pir_wrench *ret_p, pir_wrench
 
 enum { TURN_P = 3, MOVE_Q = 6, TURN_Q = 9, NUMBERS = 12 };
 
-typedef struct pir_form {
+typedef struct pir_gradient_form {
     double c[NUMBERS];
-} pir_form;
+} pir_gradient_form;
 
-static inline void set_three(pir_form *form, int at, pir_vec3 v) {
+static inline void set_three(pir_gradient_form *form, int at, pir_vec3 v) {
     form->c[at] = v.x;
     form->c[at + 1] = v.y;
     form->c[at + 2] = v.z;
 }
 
 /* t·u, the motion of P's point relative to Q's along t. */
-static inline pir_form motion_along(const pir_decider *decider, pir_vec3 t) {
-    pir_form form;
+static inline pir_gradient_form motion_along(const pir_decider *decider, pir_vec3 t) {
+    pir_gradient_form form;
     const pir_vec3 back = pir_vec_scale(t, -1);
     set_three(&form, 0, t);
     set_three(&form, TURN_P, pir_vec_cross(pir_vec_sub(decider->x, decider->origin_p), t));
@@ -83,14 +83,14 @@ static inline pir_form motion_along(const pir_decider *decider, pir_vec3 t) {
 }
 
 /* t·(ω × n), the turn of a normal that is fixed to a body. */
-static inline pir_form turn_along(const pir_decider *decider, int turn, pir_vec3 t) {
-    pir_form form = {{0}};
+static inline pir_gradient_form turn_along(const pir_decider *decider, int turn, pir_vec3 t) {
+    pir_gradient_form form = {{0}};
     set_three(&form, turn, pir_vec_cross(decider->n, t));
     return form;
 }
 
-static inline pir_form scaled(const pir_form *form, double s) {
-    pir_form r;
+static inline pir_gradient_form scaled(const pir_gradient_form *form, double s) {
+    pir_gradient_form r;
     for (int i = 0; i < NUMBERS; i++)
         r.c[i] = form->c[i] * s;
     return r;
@@ -101,7 +101,7 @@ static inline pir_form scaled(const pir_form *form, double s) {
 /* T1, T2, b and ν of derivative.h. */
 struct across {
     pir_vec3 t[2];
-    pir_form b[2], turn[2];
+    pir_gradient_form b[2], turn[2];
 };
 
 /* Two unit vectors across n, the first along a direction that is nearly so. */
@@ -138,7 +138,7 @@ static bool turn_with_edges(const pir_decider *decider, struct across *across) {
     const double cosine = pir_vec_dot(decider->along_q, across->t[0]),
                  sine = pir_vec_dot(decider->along_q, across->t[1]);
     across->turn[0] = turn_along(decider, TURN_P, across->t[0]);
-    const pir_form by_q = turn_along(decider, TURN_Q, decider->along_q);
+    const pir_gradient_form by_q = turn_along(decider, TURN_Q, decider->along_q);
     const double inverse = 1 / sine;
     for (int i = 0; i < NUMBERS; i++)
         across->turn[1].c[i] = (by_q.c[i] - cosine * across->turn[0].c[i]) * inverse;
@@ -191,7 +191,7 @@ static void set_normal(const struct across *across, double normal[3][NUMBERS]) {
  * The block of the Hessian to two turns: Σ ν cᵀ + c νᵀ with c = b − ½ d ν. The order of terms makes a block
  * on the diagonal symmetric to the bit.
  */
-static inline void set_turns(const struct across *across, const pir_form rest[2], int row, int column,
+static inline void set_turns(const struct across *across, const pir_gradient_form rest[2], int row, int column,
                              double hessian[NUMBERS][NUMBERS]) {
     const double *u = across->turn[0].c, *v = across->turn[1].c, *s = rest[0].c, *t = rest[1].c;
     for (int i = row; i < row + 3; i++)
@@ -227,7 +227,7 @@ static inline void set_translations(double normal[3][NUMBERS], double hessian[NU
 
 static void set_hessian(const pir_decider *decider, const struct across *across, pir_curvature *curvature) {
     double(*hessian)[NUMBERS] = curvature->hessian;
-    pir_form rest[2];
+    pir_gradient_form rest[2];
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < NUMBERS; i++)
             rest[k].c[i] = across->b[k].c[i] - 0.5 * decider->distance * across->turn[k].c[i];

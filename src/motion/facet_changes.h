@@ -9,8 +9,8 @@
  *
  * All movers that have an instant together change together. What only touches changes nothing.
  */
-#ifndef PIR_MOTION_CHANGES_H
-#define PIR_MOTION_CHANGES_H
+#ifndef PIR_MOTION_FACET_CHANGES_H
+#define PIR_MOTION_FACET_CHANGES_H
 
 #include <pirouette/witness.h>
 

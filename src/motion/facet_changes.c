@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Changes of the true sum: see changes.h.
+ * Changes of the true sum: see facet_changes.h.
  *
  * Arcs lead from f to f' and from g to g', with f × f' a positive multiple of the edge d of P, and g × g' of the
  * edge e of Q. They can meet at N = ±(d × e). Its dot product with d × f, the way of the first arc at f, is |d|²
@@ -10,7 +10,7 @@
  * Most instants are of one mover that crosses one arc. Then the arcs that end at the mover cross the arc before when
  * their other ends are beyond it, and after when they are not.
  */
-#include "motion/changes.h"
+#include "motion/facet_changes.h"
 
 #include <string.h>
 
