@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: MIT */
+/* The code of docs/motion.md: a box turns on a box. */
+#include <stdio.h>
+
+#include <pirouette/pirouette.h>
+
+int main(void) {
+    pir_polytope *p = NULL, *q = NULL;
+    if (pir_shape_create("cube", NULL, NULL, &p) != PIR_OK || pir_shape_create("cube", NULL, NULL, &q) != PIR_OK)
+        return 1;
+
+    /* snippet 1 */
+
+    pir_polytope_release(q);
+    pir_polytope_release(p);
+    // the last event is the quarter turn before the end
+    return degrees[0] > 269.999 && degrees[1] < 270.001 && event.lost_count == 8 ? 0 : 1;
+}
