@@ -58,6 +58,7 @@
 #include <string.h>
 
 #include <pirouette/base.h>
+#include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
@@ -155,6 +156,9 @@ typedef struct pir_body_options {
     bool disabled;               /**< whether it begins disabled: it meets nothing, and no query sees it */
     uint64_t user;               /**< a number of the caller's, which events and hits tell; a pointer fits in */
     const uint64_t *piece_users; /**< one for each piece, or NULL for 0; a triangle has its material */
+    /** Above 0: the body is fast, and updates tell what it meets on its way within this tolerance (pir_scene_impacts);
+        not of a body with a surface. */
+    double fast;
 } pir_body_options;
 
 /**
@@ -388,6 +392,25 @@ typedef struct pir_scene_event {
  * added, changed and removed while they are read: the id of one that was removed is refused. O(1).
  */
 PIR_API const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count);
+
+/** The first meeting of a fast body on its way from pose to pose. */
+typedef struct pir_scene_impact {
+    uint32_t body; /**< its id */
+    uint64_t user;
+    pir_impact impact; /**< `time` is a part of the way in the update; what is met is its `body` */
+} pir_scene_impact;
+
+/**
+ * Continuous collision: what the fast bodies that the last update moved have met on their way first, by their numbers;
+ * NULL where they met nothing. The scene owns the list until the next update.
+ *
+ * A fast body goes from its pose before the update to the one after it, straight and turning evenly the shorter way,
+ * and is held against all others as they stand after the update, as of pir_scene_time_of_impact with `fast` for a
+ * tolerance. So it passes nothing that stands, however thin and however fast it is; a body that it touches at the begin
+ * is met at time 0. Events are of the poses after the update: a program that is to stop a body brings it to the pose at
+ * that time with the next one. Sensors and disabled bodies are neither asked about nor met. O(1).
+ */
+PIR_API const pir_scene_impact *pir_scene_impacts(const pir_scene *scene, size_t *ret_count);
 
 /** The contents of a scene, and the work of its last update. */
 typedef struct pir_scene_statistics {

@@ -23,8 +23,8 @@
 /* Where things stand in a snapshot: the checksum, the generations, a body's size, its pose. */
 #define CHECKSUM_AT 32
 #define HEADER      40
-#define BODY        104
-#define POSE        48
+#define BODY        112
+#define POSE        56
 
 struct bytes {
     unsigned char *data;

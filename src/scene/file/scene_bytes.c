@@ -70,7 +70,7 @@ static void put_body(uint8_t **at, const pir_scene *scene, uint32_t number) {
     const pir_scene_body *body = &scene->bodies.body[number];
     const pir_quat q = body->pose.rotation;
     const pir_vec3 t = body->pose.translation;
-    const double numbers[8] = {body->radius, q.x, q.y, q.z, q.w, t.x, t.y, t.z};
+    const double numbers[9] = {body->radius, body->fast, q.x, q.y, q.z, q.w, t.x, t.y, t.z};
     put(at, pir_body_id(&scene->bodies, number), 4);
     put(at, body->pieces, 4);
     put(at, body->kind, 1);
@@ -83,7 +83,7 @@ static void put_body(uint8_t **at, const pir_scene *scene, uint32_t number) {
     put(at, 0, 4);
     put(at, body->user, 8);
     put(at, body->shape, 8);
-    for (int k = 0; k < 8; k++)
+    for (int k = 0; k < 9; k++)
         put_double(at, numbers[k]);
 }
 

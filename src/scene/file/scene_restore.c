@@ -141,7 +141,7 @@ pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pi
     if (!scene || !data)
         return pir_fail(s.report, PIR_ERR_ARGUMENT, "snapshot: %s is NULL", scene ? "data" : "scene");
     scene->update++;
-    scene->event_count = scene->looked = 0;
+    scene->event_count = scene->impact_count = scene->looked = 0;
     scene->lists.moved_count = scene->lists.replaced_count = 0;
     scene->lists.asked_count = scene->lists.ended_count = 0;
     pir_status status = read_header(data, size, &s);

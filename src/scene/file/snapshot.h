@@ -5,7 +5,7 @@
  *     "PIRSCENE"; u32 version, numbers, bodies, users, contacts, ends; u64 checksum of all bytes but its own
  *     per number, up to the last that was ever given: u32 generation; one more of 0 where these are odd in number
  *     per body, by number:       u32 id, pieces; u8 kind, flags; u16 0; u32 category, mask, 0;
- *                                u64 user, hash of its shape; f64 radius, quaternion[4], translation[3]
+ *                                u64 user, hash of its shape; f64 radius, fast, quaternion[4], translation[3]
  *     of bodies with users of pieces, in their order, for each piece: u64 user
  *     per contact, by its key:   u64 of bodies, of pieces
  *     per contact that ended since the last update, by its key: u64 of bodies, of pieces, user[2], piece user[2],
@@ -23,7 +23,7 @@
 #define PIR_SNAPSHOT_VERSION     3u
 #define PIR_SNAPSHOT_HEADER      40u
 #define PIR_SNAPSHOT_CHECKSUM_AT 32u
-#define PIR_SNAPSHOT_BODY        104u
+#define PIR_SNAPSHOT_BODY        112u
 #define PIR_SNAPSHOT_CONTACT     16u
 #define PIR_SNAPSHOT_END         56u
 
@@ -43,7 +43,7 @@ typedef struct pir_snapshot_body {
     uint32_t id, pieces, category, mask;
     uint8_t kind, flags;
     uint64_t user, shape;
-    double radius;
+    double radius, fast;
     pir_pose pose;
 } pir_snapshot_body;
 

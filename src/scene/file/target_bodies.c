@@ -29,6 +29,7 @@ pir_snapshot_body pir_snapshot_body_at(const pir_snapshot *snapshot, uint32_t pl
     body.user = pir_snapshot_take(&at, 8);
     body.shape = pir_snapshot_take(&at, 8);
     body.radius = take_double(&at);
+    body.fast = take_double(&at);
     double *const part[7] = {&body.pose.rotation.x,   &body.pose.rotation.y,    &body.pose.rotation.z,
                              &body.pose.rotation.w,   &body.pose.translation.x, &body.pose.translation.y,
                              &body.pose.translation.z};
@@ -62,7 +63,8 @@ static pir_status check_body(const pir_snapshot *snapshot, const pir_snapshot_bo
     if (body->kind > PIR_BODY_STATIC || body->flags > 15 || memcmp(bytes + 10, zeros, 2) != 0 ||
         memcmp(bytes + 20, zeros, 4) != 0)
         return bad(snapshot, body->id, "there is no such kind of body");
-    if (!(body->radius >= 0 && body->radius < HUGE_VAL) || body->pieces < 1 || body->pieces > PIR_PIECES_MAX)
+    if (!(body->radius >= 0 && body->radius < HUGE_VAL) || !(body->fast >= 0 && body->fast < HUGE_VAL) ||
+        body->pieces < 1 || body->pieces > PIR_PIECES_MAX)
         return bad(snapshot, body->id, "no body has such a radius or such pieces");
     return PIR_OK;
 }
@@ -97,7 +99,7 @@ static bool is_same(const pir_scene *scene, const pir_snapshot_body *body) {
         return false;
     const pir_scene_body *of = &scene->bodies.body[number];
     return of->shape == body->shape && of->pieces == body->pieces && of->kind == body->kind &&
-           of->radius == body->radius;
+           of->radius == body->radius && of->fast == body->fast;
 }
 
 static bool same_pose(const pir_pose *a, const pir_pose *b) {
@@ -204,8 +206,8 @@ static pir_status find_options(pir_scene *scene, const pir_snapshot *snapshot, c
         return pir_fail(snapshot->report, PIR_ERR_ARGUMENT, "snapshot: body %u %s, and its own shape is not kept",
                         (unsigned)body->id, has);
     }
-    if (body->kind == PIR_BODY_MOVING && !options->pieces)
-        return bad(snapshot, body->id, "it has a surface and moves");
+    if ((body->kind == PIR_BODY_MOVING || body->fast > 0) && !options->pieces)
+        return bad(snapshot, body->id, "it has a surface and moves, or is fast");
     return PIR_OK;
 }
 
@@ -223,6 +225,7 @@ static pir_status make_body(pir_scene *scene, const pir_snapshot *snapshot, cons
     options.kind = (pir_body_kind)body->kind;
     options.pose = body->pose;
     options.radius = body->radius;
+    options.fast = body->fast;
     options.category = body->category;
     options.mask = body->mask;
     options.sensor = (body->flags & PIR_SNAPSHOT_SENSOR) != 0;

@@ -3,6 +3,7 @@
  * The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly, and over
  * triangles, each by doubles where these settle it.
  */
+#include "scene/query/scene_cast.h"
 #include "mesh/query/mesh_walk.h"
 #include "pair/flight.h"
 #include "scene/change/changes.h"
@@ -347,34 +348,44 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
     return PIR_OK;
 }
 
-pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t id, const pir_motion *motion, double tolerance,
-                                    pir_impact *ret_impact) {
-    const char *missing = !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
-    pir_status status = pir_scene_given(scene, "time of impact", missing);
-    if (status != PIR_OK)
-        return status;
-    uint32_t body;
-    status = pir_scene_find_body(scene, "time of impact", id, &body);
-    if (status != PIR_OK)
-        return status;
-    if (scene->bodies.body[body].sensor)
-        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)id);
-    status = check(scene, "time of impact", motion, tolerance);
+pir_status pir_scene_fly_body(pir_scene *scene, uint32_t body, const pir_pose *from, const pir_motion *motion,
+                              double tolerance, pir_impact *ret_impact) {
+    const bool has_surface = pir_body_has_surface(&scene->bodies.body[body]);
     struct first_met first = nothing;
+    pir_status status = PIR_OK;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {
         struct flight flight;
+        pir_place place;
         flight.scene = scene;
         flight.probe = pir_probe_of_piece(scene, &scene->bodies.piece[p]);
         flight.own_piece = scene->bodies.piece[p].number;
         flight.motion = motion;
         flight.tolerance = tolerance;
-        status =
-            pir_body_has_surface(&scene->bodies.body[body]) ? fly_surface(&flight, body, &first) : fly(&flight, &first);
+        if (from && (pir_place_make(*from, &place) != PIR_OK ||
+                     !pir_place_box(&place, &flight.probe.extent, flight.probe.radius, &flight.probe.box)))
+            return PIR_ERR_LIMIT;
+        flight.probe.pose = from ? *from : flight.probe.pose;
+        status = has_surface ? fly_surface(&flight, body, &first) : fly(&flight, &first);
     }
     if (status != PIR_OK)
         return status;
     pir_name_impact(scene, &first.impact);
     *ret_impact = first.impact;
     return PIR_OK;
+}
+
+pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t id, const pir_motion *motion, double tolerance,
+                                    pir_impact *ret_impact) {
+    const char *missing = !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
+    pir_status status = pir_scene_given(scene, "time of impact", missing);
+    uint32_t body;
+    if (status == PIR_OK)
+        status = pir_scene_find_body(scene, "time of impact", id, &body);
+    if (status != PIR_OK)
+        return status;
+    if (scene->bodies.body[body].sensor)
+        return pir_fail(scene->report, PIR_ERR_ARGUMENT, "time of impact: body %u is a sensor", (unsigned)id);
+    status = check(scene, "time of impact", motion, tolerance);
+    return status == PIR_OK ? pir_scene_fly_body(scene, body, NULL, motion, tolerance, ret_impact) : status;
 }

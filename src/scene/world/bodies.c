@@ -239,6 +239,7 @@ void pir_bodies_put(pir_bodies *bodies, uint32_t body, uint32_t generation, cons
                                           .previous = place->pose,
                                           .unit = place->unit,
                                           .radius = options->radius,
+                                          .fast = options->fast,
                                           .first = PIR_PIECE_NONE,
                                           .pieces = options->pieces ? options->piece_count : 1,
                                           .category = options->category,

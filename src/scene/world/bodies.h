@@ -72,6 +72,7 @@ typedef struct pir_scene_body {
     pir_pose pose;
     pir_quat unit; /* of the pose, of length 1 */
     double radius, reach, travel;
+    double fast;            /* the tolerance of its meetings on the way, or 0 */
     uint32_t first, pieces; /* the list; how many */
     uint32_t category, mask;
     uint64_t moved; /* the update that moved it last: `previous` is its pose before that */

@@ -149,6 +149,7 @@ void pir_scene_destroy(pir_scene *scene) {
     PIR_FREE(a, scene->fresh, scene->fresh_capacity);
     PIR_FREE(a, scene->gone, scene->gone_capacity);
     PIR_FREE(a, scene->event, scene->event_capacity);
+    PIR_FREE(a, scene->impact, scene->impact_capacity);
     finish_lists(&scene->lists, a);
     finish_target(&scene->target, a);
     pir_blocks_finish(&scene->blocks);
@@ -183,6 +184,11 @@ static pir_status check_body(const pir_body_options *body, pir_report *report) {
         return pir_fail(report, PIR_ERR_NOT_FINITE, "body: its radius is not a number");
     if (!(body->radius >= 0 && body->radius < HUGE_VAL))
         return pir_fail(report, PIR_ERR_ARGUMENT, "body: its radius is %g, not from 0 up", body->radius);
+    if (isnan(body->fast))
+        return pir_fail(report, PIR_ERR_NOT_FINITE, "body: its tolerance as a fast body is not a number");
+    if (!(body->fast >= 0 && body->fast < HUGE_VAL) || (body->fast > 0 && !body->pieces))
+        return pir_fail(report, PIR_ERR_ARGUMENT,
+                        "body: its tolerance as a fast body is %g, not from 0 up, or it has a surface", body->fast);
     if (body->piece_count > PIR_PIECES_MAX)
         return pir_fail(report, PIR_ERR_LIMIT, "body: %u pieces, more than %d", (unsigned)body->piece_count,
                         (int)PIR_PIECES_MAX);
@@ -300,6 +306,11 @@ pir_status pir_scene_add(pir_scene *scene, const pir_body_options *body, uint32_
 const pir_scene_event *pir_scene_events(const pir_scene *scene, size_t *ret_count) {
     *ret_count = scene->event_count;
     return scene->event_count > 0 ? scene->event : NULL;
+}
+
+const pir_scene_impact *pir_scene_impacts(const pir_scene *scene, size_t *ret_count) {
+    *ret_count = scene->impact_count;
+    return scene->impact_count > 0 ? scene->impact : NULL;
 }
 
 pir_scene_profile pir_scene_get_profile(const pir_scene *scene) {

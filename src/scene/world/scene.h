@@ -188,6 +188,8 @@ struct pir_scene {
     pir_scene_target target;
     pir_scene_event *event;
     uint32_t event_capacity, event_count, looked;
+    pir_scene_impact *impact; /* of fast bodies, by number */
+    uint32_t impact_capacity, impact_count;
 };
 
 /* A piece's box in the tree: its tight one, wider by a margin, and on along `way`. */

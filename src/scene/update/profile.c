@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The profile of an update: see profile.h. */
-#include "scene/answer/profile.h"
+#include "scene/update/profile.h"
 
 void pir_profile_begin(pir_scene *scene) {
     scene->profile = (pir_scene_profile){0};

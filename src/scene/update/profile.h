@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* How long the parts of an update take, by the caller's clock, and what they did. */
-#ifndef PIR_SCENE_ANSWER_PROFILE_H
-#define PIR_SCENE_ANSWER_PROFILE_H
+#ifndef PIR_SCENE_UPDATE_PROFILE_H
+#define PIR_SCENE_UPDATE_PROFILE_H
 
 #include "scene/world/scene.h"
 

@@ -6,7 +6,8 @@
  *   2. bodies go to their places, and pieces whose boxes leave those of the tree are reinserted;
  *   3. pairs that these lack are made;
  *   4. pairs of moved bodies are looked at, and asked where neither boxes nor distances tell;
- *   5. events are made, pairs without a meeting of boxes dropped.
+ *   5. fast bodies are cast along their way;
+ *   6. events are made, pairs without a meeting of boxes dropped.
  *
  * A failure from step 3 on takes bodies and boxes back to where they were. Pairs that were made stay: they are not in
  * contact, and more pairs than needed break no invariant.
@@ -15,8 +16,9 @@
 #include "scene/answer/candidates.h"
 #include "scene/answer/events.h"
 #include "scene/answer/motion.h"
-#include "scene/answer/profile.h"
 #include "scene/answer/surface_contacts.h"
+#include "scene/update/fast_bodies.h"
+#include "scene/update/profile.h"
 #include "scene/world/grow.h"
 
 /* --- 1. what is asked for --- */
@@ -88,6 +90,9 @@ static pir_status answer(pir_scene *scene) {
     pir_profile_part(scene, &profile->unions_ns);
     if (status != PIR_OK)
         return status;
+    status = pir_scene_find_impacts(scene);
+    if (status != PIR_OK)
+        return status;
     status = pir_scene_make_events(scene);
     return status == PIR_OK ? PIR_OK
                             : pir_fail(scene->report, status, "update: its events: %s", pir_status_text(status));
@@ -99,7 +104,7 @@ pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_
         return status;
     pir_scene_lists *lists = &scene->lists;
     scene->update++;
-    scene->event_count = scene->looked = 0;
+    scene->event_count = scene->impact_count = scene->looked = 0;
     lists->moved_count = lists->replaced_count = lists->asked_count = lists->ended_count = 0;
     pir_profile_begin(scene);
     status = take_moves(scene, moves, count);
@@ -110,6 +115,7 @@ pir_status pir_scene_update(pir_scene *scene, const pir_scene_move *moves, size_
     pir_profile_part(scene, &scene->profile.tree_ns);
     status = answer(scene);
     if (status != PIR_OK) {
+        scene->impact_count = 0;
         pir_scene_move_back(scene);
         return status;
     }
