@@ -16,6 +16,7 @@
 #include <pirouette/mesh.h>
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
+#include <pirouette/plan.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>

@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("include", "src", "tools", "tests", "bench", "examples", "docs", "packaging")
+FOLDERS = ("include", "src", "tools", "check", "tests", "bench", "examples", "docs", "packaging")
 SOURCES = (".c", ".h", ".cpp", ".hpp", ".py")
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 FILE = re.compile(r"(?<![\w.*/-])((?:[\w-]+/)*[\w-]+\.(?:c|h|cpp|hpp|py|md))(?![\w/])(?!\.)")

@@ -18,7 +18,7 @@ MAX_DECLARED = 2  # .c files whose functions one header declares
 
 C_FILES = (".c", ".h", ".cc", ".cpp", ".hpp")
 WRITTEN = C_FILES + (".py", ".md", ".build", ".bash", ".in", ".txt", ".css", ".js", ".sh")
-FOLDERS = ("include", "src", "tools", "tests", "bench", "examples", "docs", "packaging", "fuzz")
+FOLDERS = ("include", "src", "tools", "check", "tests", "bench", "examples", "docs", "packaging", "fuzz")
 ROOT_FILES = ("README.md", "ARCHITECTURE.md", "CHANGELOG.md", "CONTRIBUTING.md", "SECURITY.md", "meson.build",
               "meson_options.txt", "dev", ".ci/run")
 # What machines wrote: inputs of fuzzing, models, results of benchmarks.
