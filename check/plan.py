@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Checks what `pirouette plan -o FILE` writes, in rationals, without anything of the library.
 
-Usage: plan.py FILE ROBOT OBSTACLE...      models in OFF, in the order of the command
+Usage: plan.py FILE ROBOT... OBSTACLE...   each solid in OFF, in the order of the command
        plan.py FILE                        the pieces in FILE are taken as the bodies
 
 Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. docs/plan.md has the format and the
@@ -278,11 +278,11 @@ class Plan:
 
     def check(self, models):
         if models:
-            bodies = [self.pieces[0]] + [[p for p, told in zip(self.pieces[1], self.told["obstacles"])
-                                          if told["body"] == i] for i in range(len(models) - 1)]
-            need(sum(map(len, bodies)) == len(self.pieces[0]) + len(self.pieces[1]), "a piece of no model")
-            for pieces, model in zip(bodies, models):
-                Model(model).check(pieces)
+            told = [(place, piece["body"]) for place in ("robot", "obstacles") for piece in self.told[place]]
+            bodies = sorted(set(told), key=lambda body: (body[0] != "robot", body[1]))
+            need(len(bodies) == len(models), f"{len(bodies)} models are wanted")
+            for body, model in zip(bodies, models):
+                Model(model).check([p for p, own in zip(self.pieces[0] + self.pieces[1], told) if own == body])
         return self.check_path() if self.told["answer"] == "path" else self.check_tree()
 
 

@@ -12,16 +12,17 @@
 #include "json.h"
 #include "measure.h"
 #include "message.h"
+#include "model.h"
+#include "models.h"
 #include "solid.h"
 #include "target.h"
 #include "text.h"
 
 struct plan_run {
     const struct args *args;
-    pir_solid *robot, **obstacle;
-    size_t count;
-    pir_quat rotation;
-    pir_vec3 end[2];
+    pir_solid **solid; /* the robot's first */
+    size_t count, room, of_robot;
+    pir_path_plan_input input;
     pir_path_plan_options options;
     pir_report report;
     double seconds;
@@ -69,9 +70,10 @@ static bool read_options(struct plan_run *run) {
         complain("plan: only translations are planned yet: say --translate-only");
         return false;
     }
-    if (!read_place(args, "--from", &run->rotation, &run->end[0]) || !read_place(args, "--to", &end, &run->end[1]))
+    if (!read_place(args, "--from", &run->input.rotation, &run->input.from) ||
+        !read_place(args, "--to", &end, &run->input.to))
         return false;
-    if (!is_same_turn(run->rotation, end)) {
+    if (!is_same_turn(run->input.rotation, end)) {
         complain("plan: --from and --to turn the robot otherwise, which translations cannot");
         return false;
     }
@@ -87,18 +89,58 @@ static bool read_options(struct plan_run *run) {
     return target_check(args, "-o", NULL);
 }
 
-static bool load(struct plan_run *run) {
-    run->obstacle = calloc(run->args->positional_count, sizeof *run->obstacle);
-    run->robot = run->obstacle ? solid_load(run->args, 0) : NULL;
-    if (!run->obstacle)
-        complain_status("plan", PIR_ERR_MEMORY, NULL);
-    for (size_t i = 1; i < run->args->positional_count && run->robot; i++) {
-        run->obstacle[run->count] = solid_load(run->args, i);
-        if (!run->obstacle[run->count])
+/* Adds a solid, which is the run's then. */
+static bool add_solid(struct plan_run *run, pir_solid *solid) {
+    if (run->count == run->room) {
+        pir_solid **grown = realloc(run->solid, (2 * run->room + 16) * sizeof *grown);
+        if (!grown) {
+            pir_solid_release(solid);
+            complain_status("plan", PIR_ERR_MEMORY, NULL);
             return false;
-        run->count++;
+        }
+        run->solid = grown;
+        run->room = 2 * run->room + 16;
     }
-    return run->robot;
+    run->solid[run->count++] = solid;
+    return true;
+}
+
+static bool take_solid(void *context, const struct found_model *model) {
+    struct plan_run *run = context;
+    pir_solid *solid = NULL;
+    pir_report report = {0};
+    const size_t size = model->text ? strlen(model->text) : 0;
+    const pir_file_bytes file = {model->text, size, model->name, "obj"};
+    const pir_status status = model->text ? pir_solid_read_bytes(&file, NULL, &report, &solid)
+                                          : pir_solid_read(model->path, NULL, &report, &solid);
+    if (status == PIR_OK)
+        return add_solid(run, solid);
+    complain_status(model->text ? model->name : model->path, status, &report);
+    return false;
+}
+
+/* The solids of an argument: a shape or standard input, or the models of a path. */
+static bool load_one(struct plan_run *run, size_t index) {
+    const char *path = run->args->positional[index];
+    if (strncmp(path, MODEL_SHAPE, strlen(MODEL_SHAPE)) != 0 && strcmp(path, "-") != 0)
+        return models_each(run->args, path, take_solid, run);
+    pir_solid *solid = solid_load(run->args, index);
+    return solid && add_solid(run, solid);
+}
+
+static bool load(struct plan_run *run) {
+    bool good = load_one(run, 0);
+    run->of_robot = run->count;
+    for (size_t i = 1; i < run->args->positional_count && good; i++)
+        good = load_one(run, i);
+    if (!good)
+        return false;
+    const pir_solid *const *all = (const pir_solid *const *)run->solid;
+    run->input.robot = all;
+    run->input.robot_count = run->of_robot;
+    run->input.obstacles = all + run->of_robot;
+    run->input.obstacle_count = run->count - run->of_robot;
+    return true;
 }
 
 /* --- what is told --- */
@@ -185,8 +227,7 @@ SUBCOMMAND(plan) {
     bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path));
     if (good) {
         const int64_t start = clock_now();
-        const pir_status status = pir_path_plan_translate(run.robot, (const pir_solid *const *)run.obstacle, run.count,
-                                                          run.rotation, run.end, &run.options, &plan);
+        const pir_status status = pir_path_plan_translate(&run.input, &run.options, &plan);
         run.seconds = (double)(clock_now() - start) / 1e9;
         good = status == PIR_OK && (!path || write_plan(&run, plan, &file));
         if (status != PIR_OK)
@@ -197,8 +238,7 @@ SUBCOMMAND(plan) {
     output_discard(&file);
     pir_path_plan_destroy(plan);
     for (size_t i = 0; i < run.count; i++)
-        pir_solid_release(run.obstacle[i]);
-    free(run.obstacle);
-    pir_solid_release(run.robot);
+        pir_solid_release(run.solid[i]);
+    free(run.solid);
     return result;
 }

@@ -432,10 +432,12 @@ const struct command command_table[] = {
         .positional = {"ROBOT", "OBSTACLE..."},
         .required = 2,
         .summary = "whether a solid can be moved from one place to another between solids, with the proof",
-        .details = "By translations, at one rotation. The answer is exact, and there is always one: a path of straight "
-                   "motions, each proven free, or no path, with a division of space that proves it. Bodies are "
-                   "closed and may not touch, unless --open. Without --bounds all of space is there. "
-                   "check/plan.py checks the file without the library; docs/plan.md has its format.",
+        .details =
+            "By translations, at one rotation. A folder of models, or an OBJ file of several objects, is several "
+            "solids: those of ROBOT move together. The answer is exact, and there is always one: a path of straight "
+            "motions, each proven free, or no path, with a division of space that proves it. Bodies are "
+            "closed and may not touch, unless --open. Without --bounds all of space is there. "
+            "check/plan.py checks the file without the library; docs/plan.md has its format.",
         .options = plan_options,
         .examples = {{"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0", "round a body"},
                      {"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0 -o plan.json",

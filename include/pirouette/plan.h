@@ -70,15 +70,22 @@ typedef struct pir_path_plan_info {
     pir_vec3 low, high;                     /**< the box: the bounds, or one around all sums and both places */
 } pir_path_plan_info;
 
+/** The question. Arrays and solids are borrowed for the call. */
+typedef struct pir_path_plan_input {
+    const pir_solid *const *robot; /**< P: solids that move together, in one frame; they may overlap */
+    size_t robot_count;
+    const pir_solid *const *obstacles; /**< Q, likewise */
+    size_t obstacle_count;
+    pir_quat rotation; /**< of P, of any non-zero length: it stands for the exact rotation */
+    pir_vec3 from, to; /**< where t begins and where it is to go, both free and within the bounds */
+} pir_path_plan_input;
+
 /**
  * Decides whether P can be moved from one translation to another.
  *
- * robot      P.
- * obstacles  `count` solids, in one frame.
- * rotation   of P, of any non-zero length: it stands for the exact rotation.
- * ends       where t begins and where it is to go, both free and within the bounds.
- * options    NULL for the defaults.
- * ret_plan   to be freed with pir_path_plan_destroy.
+ * input     the question.
+ * options   NULL for the defaults.
+ * ret_plan  to be freed with pir_path_plan_destroy.
  *
  * Without bounds the answer is that for all of space: a path that leaves a box around all sums can go along it.
  *
@@ -86,15 +93,14 @@ typedef struct pir_path_plan_info {
  * parts, in most models some tens a sum; each part is held against the sums that meet its parent's.
  *
  * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a place out of bounds, a place where bodies meet),
- * PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (memory,
- * parts), PIR_ERR_MEMORY; PIR_ERR_INTERNAL where a motion of the path fails the last check.
+ * PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION,
+ * PIR_ERR_LIMIT (memory, parts), PIR_ERR_MEMORY; PIR_ERR_INTERNAL where a motion of the path fails the last check.
  *
  * Source: exact cell decomposition by binary space partition, after Thibault and Naylor 1987; of what sums leave, after
  * Lozano-Pérez 1983.
  */
-PIR_API pir_status pir_path_plan_translate(const pir_solid *robot, const pir_solid *const *obstacles, size_t count,
-                                           pir_quat rotation, const pir_vec3 ends[2],
-                                           const pir_path_plan_options *options, pir_path_plan **ret_plan);
+PIR_API pir_status pir_path_plan_translate(const pir_path_plan_input *input, const pir_path_plan_options *options,
+                                           pir_path_plan **ret_plan);
 
 /** Frees; NULL is accepted. Cost: the time to free it. */
 PIR_API void pir_path_plan_destroy(pir_path_plan *plan);

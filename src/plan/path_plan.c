@@ -18,10 +18,8 @@ static bool is_finite(pir_vec3 v) {
 /* --- the question --- */
 
 struct question {
-    const pir_solid *robot, *const *obstacles;
-    size_t count;
-    pir_quat rotation;
-    const pir_vec3 *ends;
+    const pir_path_plan_input *input;
+    pir_vec3 ends[2];
     pir_path_plan_options how;
 };
 
@@ -43,8 +41,15 @@ static pir_status check_bounds(const struct question *q) {
     return PIR_OK;
 }
 
+static bool are_solids(const pir_solid *const *solid, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (!solid || !solid[i])
+            return false;
+    return true;
+}
+
 static pir_status check_question(const struct question *q) {
-    const pir_quat r = q->rotation;
+    const pir_quat r = q->input->rotation;
     if (!isfinite(r.x) || !isfinite(r.y) || !isfinite(r.z) || !isfinite(r.w))
         return pir_fail(q->how.report, PIR_ERR_NOT_FINITE, "rotation: a component is not finite");
     if (r.x == 0 && r.y == 0 && r.z == 0 && r.w == 0)
@@ -52,22 +57,31 @@ static pir_status check_question(const struct question *q) {
     for (int e = 0; e < 2; e++)
         if (!is_finite(q->ends[e]))
             return pir_fail(q->how.report, PIR_ERR_NOT_FINITE, "%s: a coordinate is not finite", end_names[e]);
-    if (q->count == 0)
-        return pir_fail(q->how.report, PIR_ERR_EMPTY, "plan: there are no obstacles");
-    for (size_t i = 0; i < q->count; i++)
-        if (!q->obstacles[i])
-            return PIR_ERR_ARGUMENT;
+    if (q->input->robot_count == 0 || q->input->obstacle_count == 0)
+        return pir_fail(q->how.report, PIR_ERR_EMPTY, "plan: there is no %s",
+                        q->input->robot_count == 0 ? "robot" : "obstacle");
+    if (!are_solids(q->input->robot, q->input->robot_count) ||
+        !are_solids(q->input->obstacles, q->input->obstacle_count))
+        return pir_fail(q->how.report, PIR_ERR_ARGUMENT, "plan: a solid is NULL");
     return check_bounds(q);
 }
 
 /* --- stages --- */
 
-static pir_status make_sums(pir_path_plan *plan, const struct question *q) {
-    pir_status status = pir_plan_pieces_add(&plan->space, q->robot, 0, &plan->robot);
-    for (size_t i = 0; i < q->count && status == PIR_OK; i++)
-        status = pir_plan_pieces_add(&plan->space, q->obstacles[i], (uint32_t)i, &plan->obstacles);
+static pir_status add_pieces(pir_path_plan *plan, const pir_solid *const *solid, size_t count,
+                             pir_plan_pieces *pieces) {
+    pir_status status = PIR_OK;
+    for (size_t i = 0; i < count && status == PIR_OK; i++)
+        status = pir_plan_pieces_add(&plan->space, solid[i], (uint32_t)i, pieces);
+    return status;
+}
+
+static pir_status make_sums(pir_path_plan *plan, const pir_path_plan_input *input) {
+    pir_status status = add_pieces(plan, input->robot, input->robot_count, &plan->robot);
     if (status == PIR_OK)
-        status = pir_plan_sums_make(&plan->space, &plan->robot, &plan->obstacles, q->rotation, &plan->sums);
+        status = add_pieces(plan, input->obstacles, input->obstacle_count, &plan->obstacles);
+    if (status == PIR_OK)
+        status = pir_plan_sums_make(&plan->space, &plan->robot, &plan->obstacles, input->rotation, &plan->sums);
     return status;
 }
 
@@ -146,7 +160,7 @@ static void fill_info(pir_path_plan *plan) {
 static pir_status make_plan(pir_path_plan *plan, const struct question *q) {
     pir_plan_space *space = &plan->space;
     pir_plan_cutter cutter = {.space = space};
-    pir_status status = make_sums(plan, q);
+    pir_status status = make_sums(plan, q->input);
     if (status == PIR_OK)
         status = make_ends(plan, q);
     if (status == PIR_OK)
@@ -170,48 +184,58 @@ static pir_status make_plan(pir_path_plan *plan, const struct question *q) {
     return status;
 }
 
-static pir_status tell(const struct question *q, const pir_path_plan *plan, pir_status status) {
+/* Fills the report where no stage has. */
+static void tell(const struct question *q, const pir_path_plan *plan, pir_status status) {
     pir_report *report = q->how.report;
-    if (!report || report->status == status || status == PIR_OK)
-        return status;
+    if (report->status == status)
+        return;
     if (status == PIR_ERR_LIMIT && q->how.parts > 0 && plan->tree.node_count >= q->how.parts)
-        return pir_fail(report, status, "plan: more than %u parts are needed", q->how.parts);
-    if (status == PIR_ERR_LIMIT)
-        return pir_fail(report, status, "plan: more than %zu bytes are needed, with %u parts of the box made",
-                        q->how.memory, plan->tree.node_count);
-    return pir_fail(report, status, "plan: %s", pir_status_text(status));
+        pir_fail(report, status, "plan: more than %u parts are needed", q->how.parts);
+    else if (status == PIR_ERR_LIMIT)
+        pir_fail(report, status, "plan: more than %zu bytes are needed, with %u parts of the box made", q->how.memory,
+                 plan->tree.node_count);
+    else
+        pir_fail(report, status, "plan: %s", pir_status_text(status));
 }
 
-pir_status pir_path_plan_translate(const pir_solid *robot, const pir_solid *const *obstacles, size_t count,
-                                   pir_quat rotation, const pir_vec3 ends[2], const pir_path_plan_options *options,
-                                   pir_path_plan **ret_plan) {
-    if (!robot || (!obstacles && count > 0) || !ends || !ret_plan)
-        return PIR_ERR_ARGUMENT;
-    struct question q = {robot, obstacles, count, rotation, ends, pir_path_plan_options_default()};
-    pir_report *const *told = options ? &options->report : NULL;
-    pir_status status = pir_options_take("pir_path_plan_options", options, &q.how, told);
-    if (status == PIR_OK)
-        status = check_question(&q);
+static pir_status answer(struct question *q, pir_path_plan **ret_plan) {
+    pir_status status = check_question(q);
     if (status != PIR_OK)
         return status;
-    if (q.how.report)
-        q.how.report->status = PIR_OK;
-    const pir_allocator allocator = pir_allocator_or_default(q.how.allocator);
+    const pir_allocator allocator = pir_allocator_or_default(q->how.allocator);
     pir_path_plan *plan = PIR_ZEROED(&allocator, pir_path_plan, 1);
     if (!plan)
-        return PIR_ERR_MEMORY;
+        return pir_fail(q->how.report, PIR_ERR_MEMORY, "plan: out of memory");
     plan->allocator = allocator;
-    plan->rotation = rotation;
-    plan->bounded = q.how.bounded;
-    plan->tree.open = q.how.open;
-    pir_plan_space_init(&plan->space, &plan->allocator, q.how.memory);
-    status = make_plan(plan, &q);
+    plan->rotation = q->input->rotation;
+    plan->bounded = q->how.bounded;
+    plan->tree.open = q->how.open;
+    pir_plan_space_init(&plan->space, &plan->allocator, q->how.memory);
+    status = make_plan(plan, q);
     if (status == PIR_OK) {
         *ret_plan = plan;
         return PIR_OK;
     }
-    tell(&q, plan, status);
+    tell(q, plan, status);
     pir_path_plan_destroy(plan);
+    return status;
+}
+
+pir_status pir_path_plan_translate(const pir_path_plan_input *input, const pir_path_plan_options *options,
+                                   pir_path_plan **ret_plan) {
+    if (!input || !ret_plan)
+        return PIR_ERR_ARGUMENT;
+    struct question q = {input, {input->from, input->to}, pir_path_plan_options_default()};
+    pir_report own = {0}, *const *caller = options ? &options->report : NULL;
+    pir_status status = pir_options_take("pir_path_plan_options", options, &q.how, caller);
+    if (status != PIR_OK)
+        return status;
+    // a report is filled only where the call fails
+    pir_report *told = q.how.report;
+    q.how.report = &own;
+    status = answer(&q, ret_plan);
+    if (status != PIR_OK && told)
+        *told = own;
     return status;
 }
 

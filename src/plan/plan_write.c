@@ -24,7 +24,7 @@ static void put_text(struct writer *w, const char *text) {
     fputs(text, w->file);
 }
 
-static void put_rational(struct writer *w, const mpq_t x, const char *before) {
+static void put_rational(struct writer *w, mpq_srcptr x, const char *before) {
     put_text(w, before);
     fputc('"', w->file);
     mpq_out_str(w->file, 10, x);

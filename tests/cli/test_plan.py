@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 from command_test import CommandTest, main
+from test_certify import boxes
 
 ROOT = Path(__file__).resolve().parents[2]
 CHECKER = ROOT / "check" / "plan.py"
@@ -115,6 +116,17 @@ class Plan(CommandTest):
                 wrong.write_text(json.dumps(bad))
                 self.assertFalse(self.check(wrong, *models), f"{robot}, {number}")
             self.assertFalse(self.check(proof, models[0], self.model("trap")))
+
+    def test_sets_of_solids_move_together(self):
+        plate, peg = self.model("plate"), ((2, 2, 3), (3, 3, 4))
+        proof = self.path / "sets.json"
+        for other, answer in ((((3, 3, 5), (3.5, 3.5, 6)), "path"), (((5, 2, 3), (6, 3, 4)), "no path")):
+            robot = self.file("robot.obj", boxes(peg, other))
+            told = self.data("plan", robot, plate, "--translate-only", "--from=0.25,0.25,0", "--to=0.25,0.25,-9", "-o",
+                             proof, "--bounds=-1,-1,-99,1,1,99")
+            self.assertEqual((told["answer"], told["robot_pieces"]), (answer, 2))
+            self.assertTrue(self.check(proof))
+        self.assertTrue(self.good("plan", plate, robot, "--translate-only", "--from=0,0,0", "--to=0,0,99"))
 
     def test_bad_input(self):
         bug, trap = self.model("bug"), self.model("trap")

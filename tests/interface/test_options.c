@@ -286,12 +286,12 @@ static pir_status ask_clash_body_create(struct world *w, const void *options, pi
 }
 
 static pir_status ask_path_plan(struct world *w, const void *options, pir_report *report, double *told) {
-    static const pir_vec3 ends[2] = {{-9, 0, 0}, {9, 0, 0}};
-    const pir_solid *const obstacle[] = {w->solid};
+    const pir_solid *const some[] = {w->solid};
+    const pir_path_plan_input input = {some, 1, some, 1, straight, {-9, 0, 0}, {9, 0, 0}};
     pir_path_plan *plan = NULL;
     pir_path_plan_info info = {0};
     (void)report;
-    const pir_status status = pir_path_plan_translate(w->solid, obstacle, 1, straight, ends, options, &plan);
+    const pir_status status = pir_path_plan_translate(&input, options, &plan);
     if (status == PIR_OK)
         pir_path_plan_describe(plan, &info);
     pir_path_plan_destroy(plan);

@@ -10,6 +10,7 @@
  */
 #include "support/test.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -212,8 +213,7 @@ static pir_vec3 place_of(const struct scene *s, const int half[3]) {
 static pir_status ask(const struct scene *s, const pir_allocator *allocator, pir_path_plan **ret_plan) {
     pir_path_plan_options options = pir_path_plan_options_default();
     pir_report report = {0};
-    const pir_solid *obstacle[2];
-    pir_solid *robot = solid_of(s, 0);
+    const pir_solid *obstacle[2], *robot[] = {solid_of(s, 0)};
     for (uint32_t i = 0; i < s->obstacles; i++)
         obstacle[i] = solid_of(s, (int)i + 1);
     options.allocator = allocator;
@@ -222,15 +222,15 @@ static pir_status ask(const struct scene *s, const pir_allocator *allocator, pir
     options.bounded = s->bounded;
     options.low = place_of(s, s->low);
     options.high = place_of(s, s->high);
-    const pir_vec3 ends[2] = {place_of(s, s->end[0]), place_of(s, s->end[1])};
-    const pir_quat rotation = {0, 0, s->turned ? 3 : 0, 3};
-    const pir_status status =
-        pir_path_plan_translate(robot, obstacle, s->obstacles, rotation, ends, &options, ret_plan);
+    const pir_path_plan_input input = {
+        robot, 1, obstacle, s->obstacles, {0, 0, s->turned ? 3 : 0, 3}, place_of(s, s->end[0]), place_of(s, s->end[1])};
+    const pir_status status = pir_path_plan_translate(&input, &options, ret_plan);
     if (status != PIR_OK && !allocator)
         print_error("%s\n", report.text);
+    assert_int_equal(report.status, status);
     for (uint32_t i = 0; i < s->obstacles; i++)
         pir_solid_release((pir_solid *)obstacle[i]);
-    pir_solid_release(robot);
+    pir_solid_release((pir_solid *)robot[0]);
     return status;
 }
 
@@ -334,11 +334,52 @@ static void memory_that_runs_out_is_told(void **state) {
     }
 }
 
+static void bad_questions_are_refused(void **state) {
+    (void)state;
+    static struct scene s;
+    assert_true(make_scene(0, &s));
+    pir_solid *solid = solid_of(&s, 1);
+    const pir_solid *const some[] = {solid}, *const none[] = {NULL};
+    pir_path_plan *plan = NULL;
+    const pir_path_plan_input good = {some, 1, some, 1, {0, 0, 0, 1}, {-200, 0, 0}, {200, 0, 0}};
+    pir_path_plan_input bad = good;
+    assert_int_equal(pir_path_plan_translate(NULL, NULL, &plan), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_path_plan_translate(&good, NULL, NULL), PIR_ERR_ARGUMENT);
+    bad.robot = none;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_ARGUMENT);
+    bad = good, bad.obstacle_count = 0;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_EMPTY);
+    bad = good, bad.rotation.w = 0;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_ZERO_QUATERNION);
+    bad = good, bad.rotation.w = INFINITY;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_NOT_FINITE);
+    bad = good, bad.to.y = NAN;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_NOT_FINITE);
+    bad = good, bad.to.x = 1.7e308;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_LIMIT);
+    bad = good, bad.to.x = 0;
+    assert_int_equal(pir_path_plan_translate(&bad, NULL, &plan), PIR_ERR_ARGUMENT);
+    pir_path_plan_options options = pir_path_plan_options_default();
+    options.memory = 10000;
+    assert_int_equal(pir_path_plan_translate(&good, &options, &plan), PIR_ERR_LIMIT);
+    assert_null(plan);
+    assert_int_equal(pir_path_plan_translate(&good, NULL, &plan), PIR_OK);
+    pir_vec3 at;
+    pir_path_plan_info info;
+    pir_path_plan_describe(plan, &info);
+    assert_int_equal(pir_path_plan_waypoint(plan, info.points, &at, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_path_plan_write(plan, NULL), PIR_ERR_ARGUMENT);
+    pir_path_plan_destroy(plan);
+    pir_path_plan_destroy(NULL);
+    pir_solid_release(solid);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(plans_are_those_of_the_grid),
         cmocka_unit_test(memory_that_runs_out_is_told),
+        cmocka_unit_test(bad_questions_are_refused),
     };
     return cmocka_run_group_tests_name("plans", tests, NULL, NULL);
 }
