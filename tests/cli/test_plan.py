@@ -26,7 +26,7 @@ def example_models():
 MODELS = example_models()
 
 
-class Plan(CommandTest):
+class PlanTest(CommandTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -54,6 +54,8 @@ class Plan(CommandTest):
         self.assertEqual("path" in told, told["answer"] == "path")
         return told["answer"]
 
+
+class Plan(PlanTest):
     def test_window(self):
         turn = ",".join(map(repr, MODELS.WINDOW_TURN))
         for name, answer in (("window-24-9020", "no path"), ("window-96-9020", "path"), ("window-96-9010", "no path")):
@@ -62,6 +64,38 @@ class Plan(CommandTest):
                              "--bounds=-1,-1,-3,1,1,3")
             self.assertEqual(told["answer"], answer, name)
 
+    def test_trap(self):
+        self.assertEqual(self.plan("bug", ["trap"], "1.5,1.5,1.5", "20,20,20"), "path")
+        self.assertEqual(self.plan("bug-large", ["trap"], "1.5,1.5,1.5", "20,20,20"), "no path")
+
+    def test_burr(self):
+        for seed, count, free in ((1, 2, {1, 2}), (4, 6, {2})):
+            names = [f"burr-{seed}-{i}" for i in range(1, 7)]
+            for i, name in enumerate(names[:count]):
+                others = names[:i] + names[i + 1:]
+                answer = self.plan(name, others, "0,0,0", "20,20,20", "--open", checks=seed == 4 and i == 1)
+                self.assertEqual(answer, "path" if i + 1 in free else "no path", name)
+
+    def test_bad_input(self):
+        bug, trap = self.model("bug"), self.model("trap")
+        good = ["plan", bug, trap, "--translate-only", "--from=1.5,1.5,1.5"]
+        self.bad(*good, "--to=0,0,0", says=("to", "not free", "obstacle 0"))
+        self.bad(*good, "--to=1,1,1", says=("to", "touches"))
+        self.good(*good, "--to=1,1,1", "--open")
+        self.bad(*good, says=("--to",))
+        self.bad(*good, "--to=nan,1,1", says=("--to",))
+        self.bad(*good, "--to=1,1", says=("--to",))
+        self.bad(*good, "--to=20,20,20,0,0,0,0", says=("--to", "quaternion"))
+        self.bad(*good, "--to=20,20,20,0,0,1,1", says=("turn",))
+        self.bad(*good, "--to=20,20,20", "--bounds=0,0,0,9,9,9", says=("to", "bounds"))
+        self.bad(*good, "--to=2,2,1.5", "--bounds=0,0,0,9,9,0", says=("bounds",))
+        self.bad(*good, "--to=20,20,20", "--budget", "5", says=("more than 5 parts",))
+        self.bad("plan", bug, trap, "--from=1.5,1.5,1.5", "--to=2,2,1.5", says=("--translate-only",))
+        self.bad("plan", bug, self.path / "none.off", *good[3:], "--to=20,20,20", says=("none.off",))
+        self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
+
+
+class Proofs(PlanTest):
     def test_peg(self):
         bounds = "--bounds=0,0,-9,4,4,9"
         for peg, options, answer in (("tight", ["--open"], "path"), ("tight", [], "no path"), ("loose", [], "path"),
@@ -70,17 +104,16 @@ class Plan(CommandTest):
         # without bounds there is a way round the plate
         self.assertEqual(self.plan("peg-large", ["plate"], "1,2,3", "1,2,-7"), "path")
 
-    def test_trap(self):
-        self.assertEqual(self.plan("bug", ["trap"], "1.5,1.5,1.5", "20,20,20"), "path")
-        self.assertEqual(self.plan("bug-large", ["trap"], "1.5,1.5,1.5", "20,20,20"), "no path")
-
-    def test_burr(self):
-        for seed, free in ((1, {1, 2, 3, 4, 5, 6}), (4, {2})):
-            names = [f"burr-{seed}-{i}" for i in range(1, 7)]
-            for i, name in enumerate(names):
-                others = names[:i] + names[i + 1:]
-                answer = self.plan(name, others, "0,0,0", "20,20,20", "--open", checks=i == 1)
-                self.assertEqual(answer, "path" if i + 1 in free else "no path", name)
+    def test_sets_of_solids_move_together(self):
+        plate, peg = self.model("plate"), ((2, 2, 3), (3, 3, 4))
+        proof = self.path / "sets.json"
+        for other, answer in ((((3, 3, 5), (3.5, 3.5, 6)), "path"), (((5, 2, 3), (6, 3, 4)), "no path")):
+            robot = self.file("robot.obj", boxes(peg, other))
+            told = self.data("plan", robot, plate, "--translate-only", "--from=0.25,0.25,0", "--to=0.25,0.25,-9", "-o",
+                             proof, "--bounds=-1,-1,-99,1,1,99")
+            self.assertEqual((told["answer"], told["robot_pieces"]), (answer, 2))
+            self.assertTrue(self.check(proof))
+        self.assertTrue(self.good("plan", plate, robot, "--translate-only", "--from=0,0,0", "--to=0,0,99"))
 
     @staticmethod
     def tamper(rng, how, bad):
@@ -116,35 +149,6 @@ class Plan(CommandTest):
                 wrong.write_text(json.dumps(bad))
                 self.assertFalse(self.check(wrong, *models), f"{robot}, {number}")
             self.assertFalse(self.check(proof, models[0], self.model("trap")))
-
-    def test_sets_of_solids_move_together(self):
-        plate, peg = self.model("plate"), ((2, 2, 3), (3, 3, 4))
-        proof = self.path / "sets.json"
-        for other, answer in ((((3, 3, 5), (3.5, 3.5, 6)), "path"), (((5, 2, 3), (6, 3, 4)), "no path")):
-            robot = self.file("robot.obj", boxes(peg, other))
-            told = self.data("plan", robot, plate, "--translate-only", "--from=0.25,0.25,0", "--to=0.25,0.25,-9", "-o",
-                             proof, "--bounds=-1,-1,-99,1,1,99")
-            self.assertEqual((told["answer"], told["robot_pieces"]), (answer, 2))
-            self.assertTrue(self.check(proof))
-        self.assertTrue(self.good("plan", plate, robot, "--translate-only", "--from=0,0,0", "--to=0,0,99"))
-
-    def test_bad_input(self):
-        bug, trap = self.model("bug"), self.model("trap")
-        good = ["plan", bug, trap, "--translate-only", "--from=1.5,1.5,1.5"]
-        self.bad(*good, "--to=0,0,0", says=("to", "not free", "obstacle 0"))
-        self.bad(*good, "--to=1,1,1", says=("to", "touches"))
-        self.good(*good, "--to=1,1,1", "--open")
-        self.bad(*good, says=("--to",))
-        self.bad(*good, "--to=nan,1,1", says=("--to",))
-        self.bad(*good, "--to=1,1", says=("--to",))
-        self.bad(*good, "--to=20,20,20,0,0,0,0", says=("--to", "quaternion"))
-        self.bad(*good, "--to=20,20,20,0,0,1,1", says=("turn",))
-        self.bad(*good, "--to=20,20,20", "--bounds=0,0,0,9,9,9", says=("to", "bounds"))
-        self.bad(*good, "--to=2,2,1.5", "--bounds=0,0,0,9,9,0", says=("bounds",))
-        self.bad(*good, "--to=20,20,20", "--budget", "5", says=("more than 5 parts",))
-        self.bad("plan", bug, trap, "--from=1.5,1.5,1.5", "--to=2,2,1.5", says=("--translate-only",))
-        self.bad("plan", bug, self.path / "none.off", *good[3:], "--to=20,20,20", says=("none.off",))
-        self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
 
 
 if __name__ == "__main__":
