@@ -96,6 +96,18 @@ static const struct option certify_options[] = {
     MODEL_OPTIONS,
 };
 
+command_run cmd_plan;
+static const struct option plan_options[] = {
+    {"--from", "x,y,z[,x,y,z,w]", "where the robot is: a translation and, unless it is not turned, a quaternion"},
+    {"--to", "x,y,z[,x,y,z,w]", "where it is to be, turned likewise"},
+    {"--translate-only", NULL, "by translations alone, which is decided always"},
+    {"--bounds", "x,y,z,x,y,z", "keep translations between these least and greatest ones (none)"},
+    {"--open", NULL, "bodies may touch: passages count that the robot fits exactly"},
+    {"--budget", "N", "fail where more than N parts of space are needed (what 4 GiB hold)"},
+    {"-o", "FILE", "write the path, or the proof that there is none, to FILE, JSON in rationals"},
+    COMMON_OPTIONS,
+};
+
 command_run cmd_simplify;
 static const struct option simplify_options[] = {
     {"-o", "FILE", "write the polytope inside to FILE: .off, .obj, .stl, .ply or .svg"},
@@ -440,6 +452,23 @@ const struct command command_table[] = {
                    "rationals: nothing is sampled.",
         .options = certify_options,
         .examples = {{"certify shape:cube shape:cube", "nothing is added or lost"}},
+    },
+    {
+        .name = "plan",
+        .run = CORE(cmd_plan),
+        .positional = {"ROBOT", "OBSTACLE..."},
+        .required = 2,
+        .summary = "whether a solid can be moved from one place to another between solids, with the proof",
+        .details =
+            "By translations, at one rotation. A folder of models, or an OBJ file of several objects, is several "
+            "solids: those of ROBOT move together. The answer is exact, and there is always one: a path of straight "
+            "motions, each proven free, or no path, with a division of space that proves it. Bodies are "
+            "closed and may not touch, unless --open. Without --bounds all of space is there. "
+            "check/plan.py checks the file without the library; docs/plan.md has its format.",
+        .options = plan_options,
+        .examples = {{"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0", "round a body"},
+                     {"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0 -o plan.json",
+                      "with what proves it"}},
     },
     {
         .name = "simplify",

@@ -15,6 +15,7 @@
 #include <pirouette/clash.h>
 #include <pirouette/events.h>
 #include <pirouette/mesh.h>
+#include <pirouette/plan.h>
 #include <pirouette/polytope.h>
 #include <pirouette/section.h>
 #include <pirouette/solid.h>
@@ -127,6 +128,17 @@ PIR_API void pir_polytope_vertex_exact(const pir_polytope *polytope, uint32_t ve
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_mesh_vertex_exact(const pir_mesh *mesh, uint32_t vertex, mpq_t ret_coordinates[3]);
+
+/**
+ * The exact coordinates of a point of a path (plan.h), into three initialised rationals.
+ *
+ * index  below the count of points.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_path_plan_waypoint_exact(const pir_path_plan *plan, uint32_t index, mpq_t ret_coordinates[3]);
 
 /**
  * The exact coordinates of a corner of a section, into three initialised rationals; PIR_ERR_ARGUMENT when the mesh

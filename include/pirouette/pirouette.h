@@ -21,6 +21,7 @@
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/pair_batch.h>
+#include <pirouette/plan.h>
 #include <pirouette/polytope.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: MIT */
+/**
+ * Plans: whether a body can be moved from one place to another between obstacles by translations alone, decided
+ * always and exactly, with the path, or with what proves that there is none.
+ *
+ * The robot P, at one rotation R, is at a translation t where the obstacles Q are met if t lies in one of the sums
+ * Q_l ⊕ (−R·P_k) of convex pieces. Free are the translations within the bounds that lie in no sum: bodies may not
+ * touch. Where bodies are open they may: free are those in the inside of no sum, and the narrowest passage counts, one
+ * that P fits exactly. The box of bounds is divided by planes of the sums until every part is free or blocked, and free
+ * parts that meet are joined. All of it is decided by integers. docs/plan.md has the definitions and the proof.
+ *
+ * Lengths are in units of the models, in the frame of the obstacles: a vertex v of P is at R·v + t.
+ *
+ * Threads: a plan is immutable; any threads may read one.
+ */
+#ifndef PIROUETTE_PLAN_H
+#define PIROUETTE_PLAN_H
+
+#include <stdio.h>
+
+#include <pirouette/base.h>
+#include <pirouette/solid.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct pir_path_plan pir_path_plan;
+
+/** How a plan is made. */
+typedef struct pir_path_plan_options {
+    size_t size;                    /**< of this struct, which pir_path_plan_options_default sets (base.h) */
+    const pir_allocator *allocator; /**< NULL for malloc's; copied; it outlives the plan */
+    size_t memory;                  /**< the most bytes that the plan may hold, numbers included */
+    pir_report *report;             /**< NULL, or filled when the call fails: it names what is wrong, and where */
+    pir_vec3 low, high;             /**< the bounds of t, which may be on them; each low below its high */
+    bool bounded;                   /**< false: no bounds; low and high are not read */
+    bool open;                      /**< whether the bodies are without their boundaries, so that they may touch */
+    uint32_t parts;                 /**< the most parts that the box may be divided into; 0 for what memory allows */
+} pir_path_plan_options;
+
+/** As pir_solid_options_default has it, no bounds, closed bodies, no bound on parts. O(1). */
+static inline pir_path_plan_options pir_path_plan_options_default(void) {
+    const pir_path_plan_options options = {sizeof(pir_path_plan_options),
+                                           NULL,
+                                           pir_solid_options_default().memory,
+                                           NULL,
+                                           {0, 0, 0},
+                                           {0, 0, 0},
+                                           false,
+                                           false,
+                                           0};
+    return options;
+}
+
+/** The outcome. */
+typedef enum pir_path_plan_answer {
+    PIR_PLAN_NO_PATH, /**< the two translations are in different components of free space */
+    PIR_PLAN_PATH
+} pir_path_plan_answer;
+
+/** The description of a plan, and the work that it took. */
+typedef struct pir_path_plan_info {
+    pir_path_plan_answer answer;
+    uint32_t points;                        /**< of the path; 0 where there is none */
+    uint32_t robot_pieces, obstacle_pieces; /**< convex ones */
+    uint32_t sums;                          /**< of two pieces */
+    uint32_t parts, free_parts;             /**< of the box, those that were divided among them; free ones */
+    uint32_t components;                    /**< of free space within the bounds */
+    pir_vec3 low, high;                     /**< the box: the bounds, or one around all sums and both places */
+} pir_path_plan_info;
+
+/** The question. Arrays and solids are borrowed for the call. */
+typedef struct pir_path_plan_input {
+    const pir_solid *const *robot; /**< P: solids that move together, in one frame; they may overlap */
+    size_t robot_count;
+    const pir_solid *const *obstacles; /**< Q, likewise */
+    size_t obstacle_count;
+    pir_quat rotation; /**< of P, of any non-zero length: it stands for the exact rotation */
+    pir_vec3 from, to; /**< where t begins and where it is to go, both free and within the bounds */
+} pir_path_plan_input;
+
+/**
+ * Decides whether P can be moved from one translation to another.
+ *
+ * input     the question.
+ * options   NULL for the defaults.
+ * ret_plan  to be freed with pir_path_plan_destroy.
+ *
+ * Without bounds the answer is that for all of space: a path that leaves a box around all sums can go along it.
+ *
+ * Cost: that of pir_solid_decompose of each; for p and q pieces p·q sums. For k sums that meet in many places O(k³)
+ * parts, in most models some tens a sum; each part is held against the sums that meet its parent's.
+ *
+ * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a place out of bounds, a place where bodies meet),
+ * PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION,
+ * PIR_ERR_LIMIT (memory, parts), PIR_ERR_MEMORY; PIR_ERR_INTERNAL where a motion of the path fails the last check.
+ *
+ * Source: exact cell decomposition by binary space partition, after Thibault and Naylor 1987; of what sums leave, after
+ * Lozano-Pérez 1983.
+ */
+PIR_API pir_status pir_path_plan_translate(const pir_path_plan_input *input, const pir_path_plan_options *options,
+                                           pir_path_plan **ret_plan);
+
+/** Frees; NULL is accepted. Cost: the time to free it. */
+PIR_API void pir_path_plan_destroy(pir_path_plan *plan);
+
+/** The description of a plan. O(1). */
+PIR_API void pir_path_plan_describe(const pir_path_plan *plan, pir_path_plan_info *ret_info);
+
+/**
+ * A point of the path: a translation. The first is where it begins, the last where it ends, and straight motions join
+ * them. A point may be rational: this is it, rounded, and pir_path_plan_waypoint_exact (exact.h) gives it exactly.
+ *
+ * index      below the count of points.
+ * ret_exact  NULL, or whether the double is the point.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_path_plan_waypoint(const pir_path_plan *plan, uint32_t index, pir_vec3 *ret_point,
+                                          bool *ret_exact);
+
+/**
+ * Writes the plan with its proof as JSON in rationals: the question, pieces, and the path or the division of the box.
+ * docs/plan.md has the format, which check/plan.py checks.
+ *
+ * file  open for writing; it is not closed.
+ *
+ * Cost: O(size of what is written).
+ *
+ * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_path_plan_write(const pir_path_plan *plan, FILE *file);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

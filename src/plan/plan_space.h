@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Planes and points of one plan, in integers, with doubles beside them that decide most signs.
+ *
+ * A plane is n·x = d with coprime integers, the first of n that is not 0 being positive, so that equal planes have
+ * one number. A half-space is twice a plane's number, plus 1 where it is turned: its points have n·x ≤ d, turned
+ * n·x ≥ d. A point is x/w with coprime integers, w > 0. Planes and points never change once they are made.
+ *
+ * Doubles: those of a plane are n and d over one power of two, each within 2^-52 of the exact one, relatively; those
+ * of a point within 2^-50. Then of n·x − d each product is within 2^-49.4 of its own size, and sums add three
+ * roundings: PIR_PLAN_ERROR, 2^-48 of the sum of sizes, is a bound, with PIR_PLAN_TINY times sizes of coordinates for
+ * what underflows. Values that are not finite fail both comparisons, and integers decide.
+ *
+ * Failures stay in `status`. The limit counts blocks of the allocator and the limbs of points.
+ */
+#ifndef PIR_PLAN_PLAN_SPACE_H
+#define PIR_PLAN_PLAN_SPACE_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include <gmp.h>
+
+#include <pirouette/base.h>
+
+#define PIR_PLAN_ERROR 0x1p-48
+#define PIR_PLAN_TINY  0x1p-1000
+#define PIR_PLAN_NONE  UINT32_MAX
+
+typedef struct pir_plan_plane {
+    mpz_t n[3], d;
+    double a[3], b;
+    uint32_t next; /* in its list of the table */
+} pir_plan_plane;
+
+typedef struct pir_plan_point {
+    mpz_t x[3], w;
+    double at[3];
+} pir_plan_point;
+
+typedef struct pir_plan_space {
+    pir_allocator allocator;
+    pir_status status;
+    size_t used, limit; /* bytes */
+    pir_plan_plane *plane;
+    pir_plan_point *point;
+    uint32_t plane_count, plane_room, point_count, point_room;
+    uint32_t *table; /* planes by their numbers: the first of each list */
+    uint32_t table_size;
+    mpz_t t[6]; /* scratch */
+} pir_plan_space;
+
+void pir_plan_space_init(pir_plan_space *space, const pir_allocator *allocator, size_t limit);
+void pir_plan_space_finish(pir_plan_space *space);
+
+/* A block of `count` elements, zeroed; NULL once `status` is a failure. */
+void *pir_plan_new(pir_plan_space *space, size_t count, size_t size);
+void pir_plan_free(pir_plan_space *space, void *block, size_t count, size_t size);
+
+/* Grows *array, of *room elements of a size, to hold `need`. False once `status` is a failure. */
+bool pir_plan_grow(pir_plan_space *space, void **array, uint32_t *room, uint32_t need, size_t size);
+
+/* The half-space n·x ≤ d of integers, not all of n 0. Both may be scratch from t[0] on, and are changed. */
+uint32_t pir_plan_half(pir_plan_space *space, mpz_t *n, mpz_t d);
+
+/* A point of rationals, canonical; one of doubles. */
+uint32_t pir_plan_point_of(pir_plan_space *space, const mpq_t x[3]);
+uint32_t pir_plan_point_at(pir_plan_space *space, const double x[3]);
+
+/* The point where the segment from `below` to `above` meets a plane, on whose sides they are, strictly. */
+uint32_t pir_plan_point_between(pir_plan_space *space, uint32_t plane, uint32_t below, uint32_t above);
+
+/* The middle of points, as their mean. */
+uint32_t pir_plan_point_mean(pir_plan_space *space, const uint32_t *points, uint32_t count);
+
+/* n·x − d times w, exactly, for a half-space: below 0 within it. */
+void pir_plan_excess(const pir_plan_space *space, uint32_t half, uint32_t point, mpz_t ret_excess);
+
+/* The sign of n·x − d by integers. */
+int pir_plan_exact_side(pir_plan_space *space, uint32_t plane, uint32_t point);
+
+/* The sign of n·x − d. */
+static inline int pir_plan_plane_side(pir_plan_space *space, uint32_t plane, uint32_t point) {
+    const pir_plan_plane *p = &space->plane[plane];
+    const double *x = space->point[point].at;
+    const double u = p->a[0] * x[0], v = p->a[1] * x[1], w = p->a[2] * x[2], s = u + v + w - p->b;
+    const double tiny = (1 + fabs(x[0]) + fabs(x[1]) + fabs(x[2])) * PIR_PLAN_TINY;
+    const double bound = (fabs(u) + fabs(v) + fabs(w) + fabs(p->b)) * PIR_PLAN_ERROR + tiny;
+    if (s > bound)
+        return 1;
+    if (s < -bound)
+        return -1;
+    return pir_plan_exact_side(space, plane, point);
+}
+
+/* Where a point is: −1 within a half-space, 0 on its plane, 1 outside. */
+static inline int pir_plan_side(pir_plan_space *space, uint32_t half, uint32_t point) {
+    const int side = pir_plan_plane_side(space, half >> 1, point);
+    return half & 1 ? -side : side;
+}
+
+/* About how far a point is outside of a half-space, in lengths; negative within. For choices alone. */
+double pir_plan_distance(const pir_plan_space *space, uint32_t half, uint32_t point);
+
+#endif

@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""pirouette plan: verdicts on models whose answers are known, their proofs, which check/plan.py takes, and proofs that
+were tampered with, which it refuses."""
+import importlib.util
+import json
+import random
+import subprocess
+import sys
+from pathlib import Path
+
+from command_test import CommandTest, main
+from test_certify import boxes
+
+ROOT = Path(__file__).resolve().parents[2]
+CHECKER = ROOT / "check" / "plan.py"
+
+
+def example_models():
+    spec = importlib.util.spec_from_file_location("make_models", ROOT / "examples" / "plan" / "make_models.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+MODELS = example_models()
+
+
+class PlanTest(CommandTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.text = MODELS.models()
+
+    def model(self, name):
+        path = self.path / ("plan-" + name + ".off")
+        if not path.exists():
+            path.write_text(self.text[name])
+        return path
+
+    def check(self, *args):
+        run = subprocess.run([sys.executable, "-B", str(CHECKER), *map(str, args)], capture_output=True, text=True,
+                             check=False)
+        self.assertEqual(run.returncode, 0 if run.stdout.startswith("proven: ") else 1, run.stderr)
+        return run.returncode == 0
+
+    def plan(self, robot, obstacles, start, goal, *options, checks=True):
+        """The answer, whose proof holds."""
+        models = [self.model(name) for name in (robot, *obstacles)]
+        proof = self.path / "plan.json"
+        told = self.data("plan", *models, "--translate-only", f"--from={start}", f"--to={goal}", "-o", proof, *options)
+        self.assertTrue(not checks or self.check(proof, *models), told)
+        self.assertEqual(json.loads(proof.read_text())["answer"], told["answer"])
+        self.assertEqual("path" in told, told["answer"] == "path")
+        return told["answer"]
+
+
+class Plan(PlanTest):
+    def test_window(self):
+        turn = ",".join(map(repr, MODELS.WINDOW_TURN))
+        for name, answer in (("window-24-9020", "no path"), ("window-96-9020", "path"), ("window-96-9010", "no path")):
+            models = self.model("tetrahedron"), self.model(name)
+            told = self.data("plan", *models, "--translate-only", f"--from=0,0,2,{turn}", f"--to=0,0,-2,{turn}",
+                             "--bounds=-1,-1,-3,1,1,3")
+            self.assertEqual(told["answer"], answer, name)
+
+    def test_trap(self):
+        self.assertEqual(self.plan("bug", ["trap"], "1.5,1.5,1.5", "20,20,20"), "path")
+        self.assertEqual(self.plan("bug-large", ["trap"], "1.5,1.5,1.5", "20,20,20"), "no path")
+
+    def test_burr(self):
+        for seed, count, free in ((1, 2, {1, 2}), (4, 6, {2})):
+            names = [f"burr-{seed}-{i}" for i in range(1, 7)]
+            for i, name in enumerate(names[:count]):
+                others = names[:i] + names[i + 1:]
+                answer = self.plan(name, others, "0,0,0", "20,20,20", "--open", checks=seed == 4 and i == 1)
+                self.assertEqual(answer, "path" if i + 1 in free else "no path", name)
+
+    def test_bad_input(self):
+        bug, trap = self.model("bug"), self.model("trap")
+        good = ["plan", bug, trap, "--translate-only", "--from=1.5,1.5,1.5"]
+        self.bad(*good, "--to=0,0,0", says=("to", "not free", "obstacle 0"))
+        self.bad(*good, "--to=1,1,1", says=("to", "touches"))
+        self.good(*good, "--to=1,1,1", "--open")
+        self.bad(*good, says=("--to",))
+        self.bad(*good, "--to=nan,1,1", says=("--to",))
+        self.bad(*good, "--to=1,1", says=("--to",))
+        self.bad(*good, "--to=20,20,20,0,0,0,0", says=("--to", "quaternion"))
+        self.bad(*good, "--to=20,20,20,0,0,1,1", says=("turn",))
+        self.bad(*good, "--to=20,20,20", "--bounds=0,0,0,9,9,9", says=("to", "bounds"))
+        self.bad(*good, "--to=2,2,1.5", "--bounds=0,0,0,9,9,0", says=("bounds",))
+        self.bad(*good, "--to=20,20,20", "--budget", "5", says=("more than 5 parts",))
+        self.bad("plan", bug, trap, "--from=1.5,1.5,1.5", "--to=2,2,1.5", says=("--translate-only",))
+        self.bad("plan", bug, self.path / "none.off", *good[3:], "--to=20,20,20", says=("none.off",))
+        self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
+
+
+class Proofs(PlanTest):
+    def test_peg(self):
+        bounds = "--bounds=0,0,-9,4,4,9"
+        for peg, options, answer in (("tight", ["--open"], "path"), ("tight", [], "no path"), ("loose", [], "path"),
+                                     ("large", ["--open"], "no path")):
+            self.assertEqual(self.plan("peg-" + peg, ["plate"], "1,2,3", "1,2,-7", bounds, *options), answer, peg)
+        # without bounds there is a way round the plate
+        self.assertEqual(self.plan("peg-large", ["plate"], "1,2,3", "1,2,-7"), "path")
+
+    def test_sets_of_solids_move_together(self):
+        plate, peg = self.model("plate"), ((2, 2, 3), (3, 3, 4))
+        proof = self.path / "sets.json"
+        for other, answer in ((((3, 3, 5), (3.5, 3.5, 6)), "path"), (((5, 2, 3), (6, 3, 4)), "no path")):
+            robot = self.file("robot.obj", boxes(peg, other))
+            told = self.data("plan", robot, plate, "--translate-only", "--from=0.25,0.25,0", "--to=0.25,0.25,-9", "-o",
+                             proof, "--bounds=-1,-1,-99,1,1,99")
+            self.assertEqual((told["answer"], told["robot_pieces"]), (answer, 2))
+            self.assertTrue(self.check(proof))
+        self.assertTrue(self.good("plan", plate, robot, "--translate-only", "--from=0,0,0", "--to=0,0,99"))
+
+    @staticmethod
+    def tamper(rng, how, bad):
+        piece = rng.choice(bad[rng.choice(["robot", "obstacles"])])
+        if how == 0:  # a corner elsewhere
+            rng.choice(piece["points"])[rng.randrange(3)] = "22/7"
+        elif how == 1:  # a facet is missing
+            piece["facets"].pop()
+        elif bad["answer"] == "path":
+            if how == 2:  # another end
+                bad["to"][rng.randrange(3)] = "7"
+            else:  # through the plate
+                bad["path_exact"].insert(1, ["1/3", "2", "0"])
+        elif how == 2:  # a free part is not blocked
+            rng.choice([part for part in bad["tree"] if part[0] in ("start", "other")])[:] = ["blocked", 0, 0]
+        else:  # all free parts are on one side
+            for part in bad["tree"]:
+                part[0] = "other" if part[0] == "start" else part[0]
+
+    def test_tampered_proofs_are_refused(self):
+        rng = random.Random(1)
+        for robot, obstacle, start, goal, options in (
+                ("peg-loose", "plate", "1,2,3", "1,2,-7", []),
+                ("peg-tight", "plate", "1,2,3", "1,2,-7", ["--bounds=0,0,-9,4,4,9"]),
+                ("peg-large", "plate", "1,2,3", "1,2,-7", ["--bounds=0,0,-9,4,4,9", "--open"])):
+            models = [self.model(robot), self.model(obstacle)]
+            self.plan(robot, [obstacle], start, goal, *options)
+            proof = self.path / "plan.json"
+            for number in range(4):
+                bad = json.loads(proof.read_text())
+                self.tamper(rng, number % 4, bad)
+                wrong = self.path / "wrong.json"
+                wrong.write_text(json.dumps(bad))
+                self.assertFalse(self.check(wrong, *models), f"{robot}, {number}")
+            self.assertFalse(self.check(proof, models[0], self.model("trap")))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,244 @@
+/* SPDX-License-Identifier: MIT */
+/* pirouette plan: whether a body can be moved from one place to another between obstacles, with the proof. */
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <pirouette/pirouette.h>
+
+#include "cmd.h"
+#include "file.h"
+#include "json.h"
+#include "measure.h"
+#include "message.h"
+#include "model.h"
+#include "models.h"
+#include "solid.h"
+#include "target.h"
+#include "text.h"
+
+struct plan_run {
+    const struct args *args;
+    pir_solid **solid; /* the robot's first */
+    size_t count, room, of_robot;
+    pir_path_plan_input input;
+    pir_path_plan_options options;
+    pir_report report;
+    double seconds;
+};
+
+/* --- what is asked --- */
+
+static size_t count_numbers(const char *text) {
+    size_t count = 1;
+    for (const char *c = text; *c; c++)
+        count += *c == ',';
+    return count;
+}
+
+/* A pose: x,y,z, not turned, or x,y,z and the quaternion x,y,z,w. */
+static bool read_place(const struct args *args, const char *name, pir_quat *rotation, pir_vec3 *place) {
+    double n[7] = {0, 0, 0, 0, 0, 0, 1};
+    if (!args_has(args, name)) {
+        complain("plan: %s x,y,z is missing: where the robot is to be", name);
+        return false;
+    }
+    if (!args_numbers(args, name, count_numbers(args_value(args, name)) == 7 ? 7 : 3, n))
+        return false;
+    if (n[3] == 0 && n[4] == 0 && n[5] == 0 && n[6] == 0) {
+        complain("plan: %s: the quaternion is zero, which turns nothing", name);
+        return false;
+    }
+    *place = (pir_vec3){n[0], n[1], n[2]};
+    *rotation = (pir_quat){n[3], n[4], n[5], n[6]};
+    return true;
+}
+
+/* Whether quaternions are the same, or each the other's negative: multiples of one are told apart. */
+static bool is_same_turn(pir_quat a, pir_quat b) {
+    return (a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w) ||
+           (a.x == -b.x && a.y == -b.y && a.z == -b.z && a.w == -b.w);
+}
+
+static bool read_options(struct plan_run *run) {
+    const struct args *args = run->args;
+    pir_quat end;
+    double bounds[6] = {0};
+    uint64_t parts = 0;
+    if (!args_has(args, "--translate-only")) {
+        complain("plan: only translations are planned yet: say --translate-only");
+        return false;
+    }
+    if (!read_place(args, "--from", &run->input.rotation, &run->input.from) ||
+        !read_place(args, "--to", &end, &run->input.to))
+        return false;
+    if (!is_same_turn(run->input.rotation, end)) {
+        complain("plan: --from and --to turn the robot otherwise, which translations cannot");
+        return false;
+    }
+    if (!args_numbers(args, "--bounds", 6, bounds) || !args_count(args, "--budget", 1, UINT32_MAX, &parts))
+        return false;
+    run->options = pir_path_plan_options_default();
+    run->options.report = &run->report;
+    run->options.open = args_has(args, "--open");
+    run->options.bounded = args_has(args, "--bounds");
+    run->options.low = (pir_vec3){bounds[0], bounds[1], bounds[2]};
+    run->options.high = (pir_vec3){bounds[3], bounds[4], bounds[5]};
+    run->options.parts = (uint32_t)parts;
+    return target_check(args, "-o", NULL);
+}
+
+/* Adds a solid, which is the run's then. */
+static bool add_solid(struct plan_run *run, pir_solid *solid) {
+    if (run->count == run->room) {
+        pir_solid **grown = realloc(run->solid, (2 * run->room + 16) * sizeof *grown);
+        if (!grown) {
+            pir_solid_release(solid);
+            complain_status("plan", PIR_ERR_MEMORY, NULL);
+            return false;
+        }
+        run->solid = grown;
+        run->room = 2 * run->room + 16;
+    }
+    run->solid[run->count++] = solid;
+    return true;
+}
+
+static bool take_solid(void *context, const struct found_model *model) {
+    struct plan_run *run = context;
+    pir_solid *solid = NULL;
+    pir_report report = {0};
+    const size_t size = model->text ? strlen(model->text) : 0;
+    const pir_file_bytes file = {model->text, size, model->name, "obj"};
+    const pir_status status = model->text ? pir_solid_read_bytes(&file, NULL, &report, &solid)
+                                          : pir_solid_read(model->path, NULL, &report, &solid);
+    if (status == PIR_OK)
+        return add_solid(run, solid);
+    complain_status(model->text ? model->name : model->path, status, &report);
+    return false;
+}
+
+/* The solids of an argument: a shape or standard input, or the models of a path. */
+static bool load_one(struct plan_run *run, size_t index) {
+    const char *path = run->args->positional[index];
+    if (strncmp(path, MODEL_SHAPE, strlen(MODEL_SHAPE)) != 0 && strcmp(path, "-") != 0)
+        return models_each(run->args, path, take_solid, run);
+    pir_solid *solid = solid_load(run->args, index);
+    return solid && add_solid(run, solid);
+}
+
+static bool load(struct plan_run *run) {
+    bool good = load_one(run, 0);
+    run->of_robot = run->count;
+    for (size_t i = 1; i < run->args->positional_count && good; i++)
+        good = load_one(run, i);
+    if (!good)
+        return false;
+    const pir_solid *const *all = (const pir_solid *const *)run->solid;
+    run->input.robot = all;
+    run->input.robot_count = run->of_robot;
+    run->input.obstacles = all + run->of_robot;
+    run->input.obstacle_count = run->count - run->of_robot;
+    return true;
+}
+
+/* --- what is told --- */
+
+static const char *name_of(pir_path_plan_answer answer) {
+    return answer == PIR_PLAN_PATH ? "path" : "no path";
+}
+
+static bool print_json(const struct plan_run *run, const pir_path_plan *plan, const pir_path_plan_info *info) {
+    struct json json = json_new();
+    bool all_exact = true;
+    json_add_text(&json, json.root, "answer", name_of(info->answer));
+    json_add_text(&json, json.root, "bodies", run->options.open ? "open" : "closed");
+    cJSON *path = info->answer == PIR_PLAN_PATH ? json_add_array(&json, json.root, "path") : NULL;
+    for (uint32_t i = 0; i < info->points; i++) {
+        pir_vec3 at;
+        bool exact;
+        pir_path_plan_waypoint(plan, i, &at, &exact);
+        json_add_numbers(&json, path, NULL, (const double[]){at.x, at.y, at.z}, 3);
+        all_exact = all_exact && exact;
+    }
+    if (path)
+        json_add_flag(&json, json.root, "path_is_exact", all_exact);
+    cJSON *bounds = json_add_object(&json, json.root, "bounds");
+    json_add_numbers(&json, bounds, "low", (const double[]){info->low.x, info->low.y, info->low.z}, 3);
+    json_add_numbers(&json, bounds, "high", (const double[]){info->high.x, info->high.y, info->high.z}, 3);
+    json_add_count(&json, json.root, "robot_pieces", info->robot_pieces);
+    json_add_count(&json, json.root, "obstacle_pieces", info->obstacle_pieces);
+    json_add_count(&json, json.root, "sums", info->sums);
+    json_add_count(&json, json.root, "parts", info->parts);
+    json_add_count(&json, json.root, "free_parts", info->free_parts);
+    json_add_count(&json, json.root, "components", info->components);
+    json_add_number(&json, json.root, "seconds", run->seconds);
+    return json_print(&json, stdout);
+}
+
+static void print_text(const struct plan_run *run, const pir_path_plan *plan, const pir_path_plan_info *info) {
+    char time[TEXT_NUMBER];
+    text_time(run->seconds * 1e9, time);
+    say("%s, by translations, for %s bodies\n", name_of(info->answer), run->options.open ? "open" : "closed");
+    for (uint32_t i = 0; i < info->points; i++) {
+        char x[3][TEXT_NUMBER];
+        pir_vec3 at;
+        bool exact;
+        pir_path_plan_waypoint(plan, i, &at, &exact);
+        text_double(at.x, x[0]);
+        text_double(at.y, x[1]);
+        text_double(at.z, x[2]);
+        say("  %-10s %s, %s, %s%s\n", i == 0 ? "from" : "to", x[0], x[1], x[2], exact ? "" : ", rounded");
+    }
+    say("  %-10s %" PRIu32 " of pieces, %" PRIu32 " and %" PRIu32 "\n", "sums", info->sums, info->robot_pieces,
+        info->obstacle_pieces);
+    say("  %-10s %" PRIu32 ", %" PRIu32 " of them free, in %" PRIu32 " components\n", "parts", info->parts,
+        info->free_parts, info->components);
+    say("  %-10s %s\n", "time", time);
+}
+
+/* Writes the plan with its proof to the file that -o names. */
+static bool write_plan(struct plan_run *run, const pir_path_plan *plan, struct output_file *file) {
+    const pir_status status = pir_path_plan_write(plan, file->stream);
+    if (status == PIR_OK)
+        return output_commit(file);
+    if (!output_failed(file))
+        complain_status(args_value(run->args, "-o"), status, NULL);
+    return false;
+}
+
+static int tell(struct plan_run *run, const pir_path_plan *plan) {
+    pir_path_plan_info info;
+    pir_path_plan_describe(plan, &info);
+    if (args_has(run->args, "--json"))
+        return print_json(run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (!target_is_stdout(run->args, "-o"))
+        print_text(run, plan, &info);
+    return EXIT_DONE;
+}
+
+SUBCOMMAND(plan) {
+    struct plan_run run = {.args = args};
+    struct output_file file = {0};
+    const char *path = args_value(args, "-o");
+    pir_path_plan *plan = NULL;
+    int result = EXIT_BAD_INPUT;
+    bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path));
+    if (good) {
+        const int64_t start = clock_now();
+        const pir_status status = pir_path_plan_translate(&run.input, &run.options, &plan);
+        run.seconds = (double)(clock_now() - start) / 1e9;
+        good = status == PIR_OK && (!path || write_plan(&run, plan, &file));
+        if (status != PIR_OK)
+            complain_status("plan", status, &run.report);
+        if (good)
+            result = tell(&run, plan);
+    }
+    output_discard(&file);
+    pir_path_plan_destroy(plan);
+    for (size_t i = 0; i < run.count; i++)
+        pir_solid_release(run.solid[i]);
+    free(run.solid);
+    return result;
+}
