@@ -27,7 +27,6 @@ PAGES = {
     "docs/object-space.md": "Sums of simple bodies", "docs/slices.md": "Slices",
     "docs/scale.md": "Slices at scale",
     "docs/motion.md": "Critical angles",
-    "docs/solids.md": "Solids", "docs/clash.md": "Clashes",
     "docs/solids.md": "Solids", "docs/clash.md": "Clashes", "docs/plan.md": "Plans",
     "docs/meshes.md": "Meshes", "docs/command.md": "The command",
     "docs/bad-input.md": "Bad input",
