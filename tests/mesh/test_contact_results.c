@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * What a call with surfaces says beside which contacts there are: the distance, the normal and the points of its result
- * belong together, with and without a radius; numbers of contacts are distinct and steady; a body between walls.
+ * belong together, with and without a radius; numbers of contacts are distinct and steady; a body between walls. Hulls
+ * as surfaces have the nearest contacts and depths of the hulls, which pairs tell.
  */
 #include "support/test.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include <pirouette/pair.h>
 
 #include "mesh/contact_stage.h"
 
@@ -357,6 +360,121 @@ static void acute_edges_hide_no_contact(void **state) {
     pir_trimesh_release(mesh);
 }
 
+/* --- hulls as surfaces --- */
+
+#define HULL_POINTS 12
+
+static pir_polytope *random_hull(test_random *random, uint32_t points, double size) {
+    for (;;) {
+        pir_vec3 v[HULL_POINTS];
+        pir_polytope *hull;
+        for (uint32_t i = 0; i < points; i++)
+            v[i] = (pir_vec3){size * test_random_unit(random), size * test_random_unit(random),
+                              size * test_random_unit(random)};
+        assert_int_equal(pir_polytope_create(v, points, NULL, &hull), PIR_OK);
+        if (pir_polytope_dimension(hull) == 3)
+            return hull;
+        pir_polytope_release(hull);
+    }
+}
+
+/* The facets of a hull of points in general position, by brute force: three points with all others behind. */
+static pir_trimesh *surface_of(const pir_polytope *hull) {
+    pir_vec3 v[HULL_POINTS];
+    uint32_t corner[6 * HULL_POINTS], count = 0;
+    const uint32_t points = pir_polytope_vertex_count(hull);
+    pir_trimesh *mesh;
+    for (uint32_t i = 0; i < points; i++)
+        v[i] = pir_polytope_vertex(hull, i);
+    for (uint32_t a = 0; a < points; a++)
+        for (uint32_t b = a + 1; b < points; b++)
+            for (uint32_t c = b + 1; c < points; c++) {
+                const pir_vec3 n = cross(plus(v[b], v[a], -1), plus(v[c], v[a], -1));
+                uint32_t above = 0, below = 0;
+                for (uint32_t d = 0; d < points; d++)
+                    if (d != a && d != b && d != c)
+                        *(product(n, plus(v[d], v[a], -1)) > 0 ? &above : &below) += 1;
+                if (above > 0 && below > 0)
+                    continue;
+                corner[count++] = a;
+                corner[count++] = above > 0 ? c : b;
+                corner[count++] = above > 0 ? b : c;
+            }
+    const pir_trimesh_arrays arrays = {
+        .vertices = v, .vertex_count = points, .triangles = corner, .triangle_count = count / 3};
+    assert_int_equal(pir_trimesh_create(&arrays, NULL, NULL, &mesh), PIR_OK);
+    return mesh;
+}
+
+struct hull_counts {
+    uint32_t apart, inside, longer;
+};
+
+/* P at a pose beside the surface of Q or in it, against the distance of the two hulls. */
+static void check_hulls(const pir_polytope *p, const pir_trimesh *surface, const pir_query_result *truth,
+                        const pir_pair_input *at, pir_workspace *workspace, struct hull_counts *counts) {
+    const pir_posed_surface posed = {{surface, NULL}, at->pose_q};
+    pir_surface_contact_input input = pir_surface_contact_input_default();
+    pir_surface_contact contact[CONTACTS];
+    pir_surface_contact_result r;
+    input.pose = at->pose_p;
+    input.margin = 0.05;
+    input.surfaces = &posed;
+    input.surface_count = 1;
+    assert_int_equal(pir_surface_contacts(p, workspace, &input, CONTACTS, contact, &r), PIR_OK);
+    bool has_nearest = false;
+    for (size_t i = 0; i < r.contacts; i++)
+        has_nearest = has_nearest || fabs(contact[i].distance - truth->distance) < 1e-9;
+    if (truth->state == PIR_OUTSIDE) {
+        counts->apart++;
+        expect(truth->distance >= 0.05 || (has_nearest && fabs(r.distance - truth->distance) < 1e-9),
+               "apart by %g, told %g by %zu contacts", truth->distance, r.distance, r.contacts);
+    } else if (truth->state == PIR_INSIDE && r.state == PIR_INSIDE) {
+        counts->inside++;
+        counts->longer += -r.distance > -truth->distance + 1e-9;
+        expect(r.is_out && r.contacts > 0, "%zu contacts, out %d", r.contacts, r.is_out);
+        expect(-r.distance > -truth->distance - 1e-9, "deep by %g, told %g", truth->distance, r.distance);
+    }
+}
+
+/* Facets at edges of all angles, acute ones too: nearest contacts are told, and ways out are as long as hulls are deep,
+ * but for rare ones past two edges at once. */
+static void hulls_as_surfaces_are_as_far_as_hulls(void **state) {
+    (void)state;
+    struct hull_counts counts = {0};
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t i = 0; i < 2 * poses(); i++) {
+        test_random random = test_random_case("hulls as surfaces", i);
+        pir_polytope *p = random_hull(&random, 4 + (uint32_t)(i % 9), 0.5);
+        pir_polytope *q = random_hull(&random, 4 + (uint32_t)(i / 9 % 7), 1);
+        pir_trimesh *surface = surface_of(q);
+        pir_pair_input at = pir_pair_input_default();
+        pir_query_result truth;
+        pir_pair *pair;
+        assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
+        const pir_vec3 turn_p = test_random_direction(&random), turn_q = test_random_direction(&random);
+        const double gap = 0.04 * ldexp(test_random_unit(&random), -(int)(i % 12));
+        at.pose_p.rotation = (pir_quat){turn_p.x, turn_p.y, turn_p.z, test_random_unit(&random)};
+        at.pose_q.rotation = (pir_quat){turn_q.x, turn_q.y, turn_q.z, test_random_unit(&random)};
+        at.pose_p.translation = plus((pir_vec3){0, 0, 0}, test_random_direction(&random), 3);
+        for (int k = 0; k < 3; k++) {
+            assert_int_equal(pir_pair_signed_distance(pair, workspace, &at, &truth), PIR_OK);
+            at.pose_p.translation = plus(at.pose_p.translation, truth.normal, (k < 2 ? 0.001 : gap) - truth.distance);
+        }
+        assert_int_equal(pir_pair_signed_distance(pair, workspace, &at, &truth), PIR_OK);
+        check_hulls(p, surface, &truth, &at, workspace, &counts);
+        pir_pair_destroy(pair);
+        pir_trimesh_release(surface);
+        pir_polytope_release(p);
+        pir_polytope_release(q);
+    }
+    print_message("%u apart, %u inside, %u by a longer way\n", counts.apart, counts.inside, counts.longer);
+    expect(counts.apart > 0 && counts.inside > 0 && counts.longer <= 1 + counts.inside / 500, "%u longer of %u",
+           counts.longer, counts.inside);
+    pir_workspace_destroy(workspace);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -365,6 +483,7 @@ int main(void) {
         cmocka_unit_test(numbers_of_contacts_are_distinct_and_steady),
         cmocka_unit_test(walls_nearer_than_a_body_is_wide_both_push),
         cmocka_unit_test(acute_edges_hide_no_contact),
+        cmocka_unit_test(hulls_as_surfaces_are_as_far_as_hulls),
     };
     return cmocka_run_group_tests_name("results of contacts", tests, NULL, NULL);
 }

@@ -34,7 +34,8 @@ struct exit_ways {
     double front;          /* the greatest depth along a front */
     struct exit_way least; /* of the triangle that is looked at */
     double far;
-    bool loose; /* also ways at whose ends P is beside their facets */
+    double most; /* of ways past triangles that P does not meet: none is as long */
+    bool loose;  /* also ways at whose ends P is beside their facets */
     const pir_contact_job *job;
     pir_vec3 t;
     const pir_near_triangle *s;
@@ -77,6 +78,14 @@ static void add_way(void *context, const pir_contact_facet *facet) {
         ways->missed = fmin(ways->missed, depth);
     else if (ways->loose || pir_contact_may_touch(ways->job, ways->t, ways->s, facet))
         insert(ways, (struct exit_way){facet->n, depth});
+}
+
+static void add_shorter_way(void *context, const pir_contact_facet *facet) {
+    struct exit_ways *ways = context;
+    const bool back = ways->s->one_sided && pir_vec_dot(facet->n, ways->s->front) < BACKWARD;
+    if (!back && facet->depth > 0 && facet->depth < ways->most &&
+        pir_contact_may_touch(ways->job, ways->t, ways->s, facet))
+        insert(ways, (struct exit_way){facet->n, facet->depth});
 }
 
 /* The cosine of the angle between the way to P and the front; 0 for triangles that have no side. */
@@ -177,6 +186,22 @@ static struct exit_way find_ways(pir_contact_job *job, pir_vec3 t, bool loose, s
             longest = ways->least;
     }
     return longest;
+}
+
+/* Ways shorter than `most` that end at a facet of a D that P's place is not in: P leaves past an edge or a corner of a
+ * triangle that it does not meet. */
+static void find_ways_past(pir_contact_job *job, pir_vec3 t, double most, struct exit_ways *ways) {
+    ways->loose = false;
+    ways->count = 0;
+    ways->missed = HUGE_VAL;
+    ways->most = most - DOUBLE * ways->far;
+    for (uint32_t i = 0; i < job->triangle_count; i++) {
+        const pir_near_triangle *s = &job->triangle[i];
+        if (!s->counts || s->near.meets || s->passed || s->near.distance >= most)
+            continue;
+        ways->s = s;
+        pir_contact_each_facet(job, t, s, add_shorter_way, ways);
+    }
 }
 
 pir_vec3 pir_contact_place_by(const pir_contact_job *job, pir_vec3 by) {
@@ -324,6 +349,15 @@ static void leave_place(pir_contact_job *job, struct step_out *by, pir_way_out *
     const bool tight = try_ways(job, out->t, &by->ways, false, &way, &to);
     const double missed = by->ways.missed;
     out->is_out = tight;
+    if (tight) {
+        struct exit_way shorter;
+        pir_vec3 end;
+        find_ways_past(job, out->t, way.depth, &by->ways);
+        if (try_ways(job, out->t, &by->ways, false, &shorter, &end)) {
+            way = shorter;
+            to = end;
+        }
+    }
     if (!tight && longest.depth >= 0) {
         (void)find_ways(job, out->t, true, &by->ways);
         out->is_out = try_ways(job, out->t, &by->ways, true, &way, &to);
