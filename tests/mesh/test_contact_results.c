@@ -418,6 +418,7 @@ static void check_hulls(const pir_polytope *p, const pir_trimesh *surface, const
     pir_surface_contact contact[CONTACTS];
     pir_surface_contact_result r;
     input.pose = at->pose_p;
+    input.radius = at->radius_p;
     input.margin = 0.05;
     input.surfaces = &posed;
     input.surface_count = 1;
@@ -437,8 +438,8 @@ static void check_hulls(const pir_polytope *p, const pir_trimesh *surface, const
     }
 }
 
-/* Facets at edges of all angles, acute ones too: nearest contacts are told, and ways out are as long as hulls are deep,
- * but for rare ones past two edges at once. */
+/* Facets at edges of all angles, acute ones too, and bodies with a radius: nearest contacts are told, and ways out are as
+ * long as hulls are deep, but for rare ones past two edges at once. */
 static void hulls_as_surfaces_are_as_far_as_hulls(void **state) {
     (void)state;
     struct hull_counts counts = {0};
@@ -454,13 +455,16 @@ static void hulls_as_surfaces_are_as_far_as_hulls(void **state) {
         pir_pair *pair;
         assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
         const pir_vec3 turn_p = test_random_direction(&random), turn_q = test_random_direction(&random);
-        const double gap = 0.04 * ldexp(test_random_unit(&random), -(int)(i % 12));
+        const double gap =
+            i % 5 == 4 ? 0.3 * test_random_unit(&random) : 0.04 * ldexp(test_random_unit(&random), -(int)(i % 12));
+        at.radius_p = i % 2 ? 0.2 : 0;
         at.pose_p.rotation = (pir_quat){turn_p.x, turn_p.y, turn_p.z, test_random_unit(&random)};
         at.pose_q.rotation = (pir_quat){turn_q.x, turn_q.y, turn_q.z, test_random_unit(&random)};
         at.pose_p.translation = plus((pir_vec3){0, 0, 0}, test_random_direction(&random), 3);
         for (int k = 0; k < 3; k++) {
             assert_int_equal(pir_pair_signed_distance(pair, workspace, &at, &truth), PIR_OK);
-            at.pose_p.translation = plus(at.pose_p.translation, truth.normal, (k < 2 ? 0.001 : gap) - truth.distance);
+            const double to = (k < 2 ? 0.001 + at.radius_p : gap) - truth.distance;
+            at.pose_p.translation = plus(at.pose_p.translation, truth.normal, to);
         }
         assert_int_equal(pir_pair_signed_distance(pair, workspace, &at, &truth), PIR_OK);
         check_hulls(p, surface, &truth, &at, workspace, &counts);

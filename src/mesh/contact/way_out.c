@@ -7,6 +7,8 @@
  */
 #include "mesh/contact/way_out.h"
 
+#include <math.h>
+
 #include "mesh/contact/contact_facets.h"
 
 /* Ways tried from one place, and places. */
@@ -93,21 +95,46 @@ static double side_of(const pir_near_triangle *s) {
     return s->one_sided ? pir_vec_dot(s->near.way, s->front) / s->near.distance : 1;
 }
 
+/* The angle that a triangle has about its nearest point: all round within it, half on a side, its own at a corner. */
+static double angle_of(const pir_near_triangle *s) {
+    const pir_contact_simplex *near = &s->near.simplex;
+    uint32_t corners = 0;
+    for (uint32_t i = 0; i < near->count; i++)
+        corners |= 1u << near->w[i];
+    const double half = acos(-1);
+    if ((corners & (corners - 1)) != 0)
+        return corners == 7 ? 2 * half : half;
+    const uint32_t at = corners == 4 ? 2 : corners == 2 ? 1 : 0;
+    const pir_vec3 a = pir_vec_sub(s->p[(at + 1) % 3], s->p[at]), b = pir_vec_sub(s->p[(at + 2) % 3], s->p[at]);
+    return acos(fmax(-1, fmin(1, pir_vec_dot(a, b) / (pir_length(a) * pir_length(b)))));
+}
+
 /*
- * Whether P, without its radius, is at the back of the nearest triangle. Of triangles that are as near, as on both
- * sides of an edge, the one that faces P the most tells.
+ * Whether P, without its radius, is at the back of the nearest triangle. Of triangles that share the nearest point, as
+ * on both sides of an edge, the sum of their fronts tells, each weighted by its angle there: on a closed surface that
+ * is right for any edge or corner (Bærentzen and Aanæs, 2005).
  */
 static bool is_at_back(const pir_contact_job *job) {
-    double least = HUGE_VAL, side = 0;
-    for (uint32_t i = 0; i < job->triangle_count; i++)
-        if (job->triangle[i].counts)
-            least = fmin(least, job->triangle[i].near.distance);
+    const pir_near_triangle *nearest = NULL;
+    double side = 0;
     for (uint32_t i = 0; i < job->triangle_count; i++) {
         const pir_near_triangle *s = &job->triangle[i];
-        if (s->counts && s->near.distance <= least * (1 + LEVEL) && fabs(side_of(s)) > fabs(side))
-            side = side_of(s);
+        if (s->counts && (!nearest || s->near.distance < nearest->near.distance))
+            nearest = s;
     }
-    return side < 0 && least < job->input->radius;
+    if (!nearest || !(nearest->near.distance < job->input->radius))
+        return false;
+    const double level = LEVEL * (job->size + nearest->near.distance);
+    for (uint32_t i = 0; i < job->triangle_count; i++) {
+        const pir_near_triangle *s = &job->triangle[i];
+        if (!s->counts || s->near.distance > nearest->near.distance + level ||
+            pir_length(pir_vec_sub(s->near.point, nearest->near.point)) > level)
+            continue;
+        if (!s->one_sided)
+            return false;
+        side += angle_of(s) * pir_vec_dot(nearest->near.way, s->front);
+    }
+    return side < 0;
 }
 
 /* Sets `passed`, where P without its radius meets nothing; whether any is. */
