@@ -148,7 +148,7 @@ static void bench_pair(const struct pair *pair, FILE *csv) {
 
 int main(int argc, char **argv) {
     static const pir_quat random = {0.1, 0.2, -0.3, 0.9}, straight = {0, 0, 0, 1};
-    static const struct pair pairs[] = {
+    const struct pair pairs[] = {
         {"icosahedron", "cube", "random", random}, {"icosahedron", "cube", "straight", straight},
         {"cube", "cube", "random", random},        {"cube", "cube", "straight", straight},
         {"gs4", "gs4", "random", random},          {"gs4", "gs4", "straight", straight},

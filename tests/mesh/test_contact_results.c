@@ -438,8 +438,8 @@ static void check_hulls(const pir_polytope *p, const pir_trimesh *surface, const
     }
 }
 
-/* Facets at edges of all angles, acute ones too, and bodies with a radius: nearest contacts are told, and ways out are as
- * long as hulls are deep, but for rare ones past two edges at once. */
+/* Facets at edges of all angles, acute ones too, and bodies with a radius: nearest contacts are told, and ways out are
+ * as long as hulls are deep, but for rare ones past two edges at once. */
 static void hulls_as_surfaces_are_as_far_as_hulls(void **state) {
     (void)state;
     struct hull_counts counts = {0};
