@@ -35,7 +35,7 @@ typedef struct pir_solid_contact {
     pir_vec3 normal;           /**< unit, from Q to P */
     double distance;           /**< along the normal; negative where they overlap */
     uint32_t piece_p, piece_q;
-    uint32_t facet_q; /**< of piece_q (pir_pieces_polytope) */
+    uint32_t facet_q; /**< of piece_q (pir_pieces_polytope); UINT32_MAX where P leaves past an edge or a corner of it */
     uint64_t id;      /**< of piece_p and the features that meet: unlike all others of a call, and the same from call to
                            call while these meet */
 } pir_solid_contact;
@@ -58,7 +58,8 @@ PIR_API void pir_solid_contacts_destroy(pir_solid_contacts *contacts);
 
 /**
  * All contacts up to `margin` apart, the deepest first. Those of one normal, whichever pieces they are of, hold a great
- * area by at most four points, the deepest among them.
+ * area by at most four points, the deepest among them. Where bodies overlap there is one at least: at a ridge that
+ * pieces of P share it may be that of the depth of the bodies alone (pir_solid_query_depth).
  *
  * workspace            scratch.
  * input                the poses of both, and radii, which count together; the cutoff does not count.
@@ -67,7 +68,7 @@ PIR_API void pir_solid_contacts_destroy(pir_solid_contacts *contacts);
  *
  * Memory: grows to what the largest answer needs; then no call allocates.
  * Cost: that of pir_surface_contacts for each piece of P near Q, and O(c²) for c contacts of pieces.
- * Errors: those of pir_surface_contacts.
+ * Errors: those of pir_surface_contacts, and of pir_solid_query_depth.
  */
 PIR_API pir_status pir_solid_contacts_find(pir_solid_contacts *contacts, pir_workspace *workspace,
                                            const pir_pair_input *input, size_t most, pir_solid_contact *ret_contacts,

@@ -5,7 +5,8 @@
  * Bodies of unit cubes, divided into pieces, on a floor that is divided as well: every contact is one with the floor's
  * top, wherever the body slides, turned about the vertical or not, and four at most stand for all. Convex bodies at any
  * pose near solids that they do not meet: the normals that are told are those that the boundary of the solid alone
- * gives, as one mesh, which has no inner walls.
+ * gives, as one mesh, which has no inner walls. Bodies with walls, at any pose: the nearest contact is as far as they
+ * are.
  *
  * PIR_TEST_CASES sets how many bodies and poses there are.
  */
@@ -274,6 +275,57 @@ static void contacts_are_those_of_the_boundary(void **state) {
     print_message("%llu poses\n", (unsigned long long)poses);
 }
 
+/* --- against distances --- */
+
+/* Bodies with walls within both, at any pose: the nearest contact is as far as the bodies, and none is nearer; where
+ * they overlap there is one. */
+static void the_nearest_contact_is_told(void **state) {
+    (void)state;
+    static const char *const names[][2] = {{"ell", "clamp"},     {"star5", "ell"},   {"clamp", "frame"},
+                                           {"stella", "stella"}, {"star5", "gear8"}, {"mushroom", "stella"}};
+    uint64_t apart = 0, inside = 0;
+    pir_workspace *workspace = NULL;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t i = 0; i < solid_cases(6); i++) {
+        test_random random = test_random_case("nearest contacts of solids", i);
+        pir_solid *solid[2] = {solid_model_new(names[i % 6][0], 1), solid_model_new(names[i % 6][1], 1)};
+        pir_pieces *p = pieces_of(solid[0]), *q = pieces_of(solid[1]);
+        pir_solid_query *query = NULL;
+        pir_solid_contacts *object = NULL;
+        assert_int_equal(pir_solid_query_create(p, q, NULL, &query), PIR_OK);
+        assert_int_equal(pir_solid_contacts_create(p, q, NULL, &object), PIR_OK);
+        for (int k = 0; k < 40; k++) {
+            pir_pair_input input = pir_pair_input_default();
+            pir_solid_contact contact[MOST];
+            pir_solid_distance told;
+            size_t count = 0;
+            const pir_vec3 turn = test_random_direction(&random), axis = test_random_direction(&random);
+            input.pose_q.rotation = (pir_quat){turn.x, turn.y, turn.z, test_random_unit(&random)};
+            input.pose_p.rotation = (pir_quat){axis.x, axis.y, axis.z, test_random_unit(&random)};
+            input.pose_p.translation = test_add((pir_vec3){0, 0, 0}, test_random_direction(&random), 16);
+            input.margin = 0.05;
+            if (!place(query, workspace, 0.04 * test_random_unit(&random), &input))
+                continue;
+            assert_int_equal(pir_solid_query_distance(query, workspace, &input, &told), PIR_OK);
+            assert_int_equal(pir_solid_contacts_find(object, workspace, &input, MOST, contact, &count), PIR_OK);
+            assert_true(count > 0);
+            apart += told.result.state == PIR_OUTSIDE;
+            inside += told.result.state == PIR_INSIDE;
+            if (told.result.state == PIR_OUTSIDE)
+                assert_true(fabs(contact[0].distance - told.result.distance) < 1e-9);
+        }
+        pir_solid_contacts_destroy(object);
+        pir_solid_query_destroy(query);
+        pir_pieces_destroy(p);
+        pir_pieces_destroy(q);
+        pir_solid_release(solid[0]);
+        pir_solid_release(solid[1]);
+    }
+    print_message("%llu apart, %llu inside\n", (unsigned long long)apart, (unsigned long long)inside);
+    assert_true(apart > 0 && inside > 0);
+    pir_workspace_destroy(workspace);
+}
+
 /* --- use --- */
 
 static void memory_may_run_out_and_inputs_are_refused(void **state) {
@@ -330,6 +382,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bodies_slide_over_inner_walls_without_ghosts),
         cmocka_unit_test(contacts_are_those_of_the_boundary),
+        cmocka_unit_test(the_nearest_contact_is_told),
         cmocka_unit_test(memory_may_run_out_and_inputs_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

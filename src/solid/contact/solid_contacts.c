@@ -6,10 +6,13 @@
  *   and its material the piece.
  * - Contacts that pir_surface_contacts tells of a piece of P, with the others beside it, are none of a wall of either
  *   body: they are those of the union, and stay what they are. What is done here chooses among them.
+ * - Where P overlaps at a ridge that pieces of it share, each has a way out that the other is in, so neither tells a
+ *   contact. Then the depth of the bodies is the one contact.
  */
 #include <pirouette/solid_contact.h>
 
 #include <math.h>
+#include <pirouette/solid_query.h>
 #include <pirouette/trimesh_contact.h>
 
 #include "base/memory.h"
@@ -30,6 +33,7 @@ struct pir_solid_contacts {
     pir_polytope **piece; /* of P */
     uint32_t pieces;
     pir_trimesh *surface;
+    pir_solid_query *query; /* of depths */
     uint32_t *facet, triangles;
     pir_surface_contact *told; /* OF_PIECE of them */
     pir_solid_contact *found;
@@ -133,6 +137,8 @@ pir_status pir_solid_contacts_create(const pir_pieces *p, const pir_pieces *q, c
     pir_status status = take_pieces(c, p);
     if (status == PIR_OK)
         status = take_surface(c, q);
+    if (status == PIR_OK)
+        status = pir_solid_query_create(p, q, &a, &c->query);
     if (status != PIR_OK) {
         pir_solid_contacts_destroy(c);
         return status;
@@ -150,6 +156,7 @@ void pir_solid_contacts_destroy(pir_solid_contacts *contacts) {
         pir_polytope_release(c->piece[i]);
     PIR_FREE(&a, c->piece, c->pieces);
     pir_trimesh_release(c->surface);
+    pir_solid_query_destroy(c->query);
     PIR_FREE(&a, c->facet, c->triangles);
     PIR_FREE(&a, c->told, OF_PIECE);
     PIR_FREE(&a, c->found, c->found_room);
@@ -216,6 +223,28 @@ static pir_status ask_piece(pir_solid_contacts *c, pir_workspace *workspace, con
                                                    .facet_q = c->facet[told->triangle],
                                                    .id = id_of(piece, told->id)};
     }
+    return PIR_OK;
+}
+
+/* The depth of the bodies as a contact, where they overlap. */
+static pir_status ask_depth(pir_solid_contacts *c, pir_workspace *workspace, const pir_pair_input *input) {
+    pir_solid_depth depth;
+    const pir_status status = pir_solid_query_depth(c->query, workspace, input, &depth);
+    if (status != PIR_OK || depth.state != PIR_INSIDE)
+        return status;
+    if (!grow(c, 1))
+        return PIR_ERR_MEMORY;
+    const pir_witness *of = &depth.facet[0].witness;
+    const double distance = -depth.depth - input->radius_p - input->radius_q;
+    c->found[c->count++] =
+        (pir_solid_contact){.point_p = pir_vec_add(depth.point_q, pir_vec_scale(depth.normal, distance)),
+                            .point_q = depth.point_q,
+                            .normal = depth.normal,
+                            .distance = distance,
+                            .piece_p = depth.facet[0].piece_p,
+                            .piece_q = depth.facet[0].piece_q,
+                            .facet_q = of->q.kind == PIR_FEATURE_FACET ? of->q.index : UINT32_MAX,
+                            .id = id_of(depth.facet[0].piece_p, (uint64_t)depth.facet[0].piece_q << 32)};
     return PIR_OK;
 }
 
@@ -305,6 +334,11 @@ pir_status pir_solid_contacts_find(pir_solid_contacts *contacts, pir_workspace *
     c->count = 0;
     for (uint32_t piece = 0; piece < c->pieces; piece++) {
         const pir_status status = ask_piece(c, workspace, input, piece);
+        if (status != PIR_OK)
+            return status;
+    }
+    if (c->count == 0) {
+        const pir_status status = ask_depth(c, workspace, input);
         if (status != PIR_OK)
             return status;
     }
