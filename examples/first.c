@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* The first program of docs/getting-started.md: a cube, turned by 45 degrees, has sunk into a plate. */
+/*
+ * The first program of docs/getting-started.md: a cube, turned by 45 degrees, has sunk into a plate.
+ */
 #include <math.h>
 #include <stdio.h>
 

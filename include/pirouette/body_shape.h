@@ -42,6 +42,7 @@ typedef struct pir_body_shape pir_body_shape;
  * A ball about the origin.
  *
  * radius  > 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *
@@ -54,6 +55,7 @@ PIR_API pir_status pir_body_shape_ball(double radius, const pir_allocator *alloc
  * All that is within a radius of the segment from a to b.
  *
  * radius  > 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *
@@ -67,6 +69,7 @@ PIR_API pir_status pir_body_shape_capsule(pir_vec3 a, pir_vec3 b, double radius,
  *
  * half    half of its edges, the radius included; each at least the radius and above 0.
  * radius  ≥ 0, of its edges.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *
@@ -80,6 +83,7 @@ PIR_API pir_status pir_body_shape_box(pir_vec3 half, double radius, const pir_al
  *
  * radius, height  > 0.
  * sides           3 to 1024, or 0 for 32.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: that of the hull.
  *
@@ -93,6 +97,7 @@ PIR_API pir_status pir_body_shape_cylinder(double radius, double height, uint32_
  * origin.
  *
  * radius, height, sides  as of a cylinder.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: that of the hull.
  *
@@ -107,6 +112,7 @@ PIR_API pir_status pir_body_shape_cone(double radius, double height, uint32_t si
  *
  * normal         of any length but 0.
  * offset, reach  in units of length, also where the normal is no unit vector; reach > 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *
@@ -120,6 +126,7 @@ PIR_API pir_status pir_body_shape_plane(pir_vec3 normal, double offset, double r
  *
  * points, count  at least one; copied.
  * radius         ≥ 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: that of the hull.
  *
@@ -138,6 +145,7 @@ typedef struct pir_body_part {
  * Shapes put together: their pieces, each moved exactly.
  *
  * parts, count  at least one; together at most 4096 pieces.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: that of the hulls of their pieces.
  *
@@ -152,6 +160,7 @@ PIR_API pir_status pir_body_shape_compound(const pir_body_part *parts, size_t co
  *
  * mesh    referenced.
  * radius  ≥ 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *
@@ -165,6 +174,7 @@ PIR_API pir_status pir_body_shape_mesh(pir_trimesh *mesh, double radius, const p
  *
  * field   referenced.
  * radius  ≥ 0.
+ * allocator, report  NULL, or as of all constructors.
  *
  * Cost: O(1).
  *

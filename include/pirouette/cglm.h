@@ -24,26 +24,26 @@
 extern "C" {
 #endif
 
-/** A vector of floats as one of doubles. O(1). */
+/** A vector `v` of floats as one of doubles. O(1). */
 static inline pir_vec3 pir_vec3_from_cglm(const float v[3]) {
     const pir_vec3 made = {v[0], v[1], v[2]};
     return made;
 }
 
-/** A vector of doubles as one of floats. O(1). */
+/** A vector `v` of doubles as one of floats. O(1). */
 static inline void pir_vec3_to_cglm(pir_vec3 v, float ret_v[3]) {
     ret_v[0] = (float)v.x;
     ret_v[1] = (float)v.y;
     ret_v[2] = (float)v.z;
 }
 
-/** A versor, whose numbers are x, y, z, w, as a quaternion. O(1). */
+/** A versor `q`, whose numbers are x, y, z, w, as a quaternion. O(1). */
 static inline pir_quat pir_quat_from_cglm(const float q[4]) {
     const pir_quat made = {q[0], q[1], q[2], q[3]};
     return made;
 }
 
-/** A quaternion, of any length but 0, as a versor of length 1. O(1). */
+/** A quaternion `q`, of any length but 0, as a versor of length 1. O(1). */
 static inline void pir_quat_to_cglm(pir_quat q, float ret_q[4]) {
     const double length = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     ret_q[0] = (float)(q.x / length);
@@ -52,13 +52,13 @@ static inline void pir_quat_to_cglm(pir_quat q, float ret_q[4]) {
     ret_q[3] = (float)(q.w / length);
 }
 
-/** The pose of a versor and a translation. O(1). */
+/** The pose of a versor `rotation` and a `translation`. O(1). */
 static inline pir_pose pir_pose_from_cglm(const float rotation[4], const float translation[3]) {
     const pir_pose made = {pir_quat_from_cglm(rotation), pir_vec3_from_cglm(translation)};
     return made;
 }
 
-/** A pose as a versor and a translation. O(1). */
+/** A pose as a versor, `ret_rotation`, and a translation, `ret_translation`. O(1). */
 static inline void pir_pose_to_cglm(pir_pose pose, float ret_rotation[4], float ret_translation[3]) {
     pir_quat_to_cglm(pose.rotation, ret_rotation);
     pir_vec3_to_cglm(pose.translation, ret_translation);

@@ -68,7 +68,9 @@ PIR_API pir_status pir_events_create(pir_polytope *p, pir_polytope *q, pir_quat 
  * axis       u, of any length but 0, in the frame of Q.
  * allocator  NULL for malloc.
  *
- * Cost, errors: as of pir_events_create.
+ * Cost: that of pir_events_create.
+ *
+ * Errors: those of pir_events_create.
  */
 PIR_API pir_status pir_sum_events(const pir_sum *sum, pir_vec3 axis, const pir_allocator *allocator,
                                   pir_events **ret_events);

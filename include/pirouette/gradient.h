@@ -80,6 +80,7 @@ typedef struct pir_curvature {
  *
  * workspace, input  scratch, and the poses of both.
  * ret_result        the answer.
+ * ret_gradient      its first derivatives.
  * ret_curvature     NULL where second derivatives are not wanted.
  *
  * Cost: that of pir_pair_signed_distance, and O(1).
@@ -95,6 +96,7 @@ PIR_API pir_status pir_pair_gradient(pir_pair *pair, pir_workspace *workspace, c
  *
  * input, cache   as of pir_query_overlap.
  * ret_result     the answer.
+ * ret_gradient   its first derivatives.
  * ret_curvature  NULL where second derivatives are not wanted.
  *
  * Cost: that of a query, and O(1).
@@ -168,7 +170,7 @@ PIR_API double pir_wrench_along(pir_wrench wrench, pir_vec3 velocity, pir_vec3 a
 /**
  * By right perturbations, in the body's own axes: translation' = translation + R·v, R' = R · e^w.
  *
- * pose  the body's.
+ * wrench, pose  the body's.
  *
  * Cost: O(1).
  */
@@ -178,7 +180,7 @@ PIR_API pir_wrench pir_wrench_in_body(pir_wrench wrench, pir_pose pose);
  * By left perturbations about the world's origin, the spatial twist: translation' = e^w·translation + v, R' = e^w·R.
  * The torque is then about the world's origin.
  *
- * pose  the body's.
+ * wrench, pose  the body's.
  *
  * Cost: O(1).
  */
@@ -210,6 +212,7 @@ PIR_API pir_curvature pir_curvature_in_body(const pir_curvature *curvature, pir_
  * triangle of its fan that holds the point, the fan being from its first corner. That is exact for triangles; for
  * facets of more corners it is the gradient along motions of the vertices that leave the facet flat.
  *
+ * polytope      the body.
  * point         of the feature, in the coordinates of the body: pir_pose_apply_inverse of a point of an answer. What
  *               is beside the feature is brought to it.
  * ret_vertices  room for three.

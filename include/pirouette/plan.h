@@ -113,6 +113,7 @@ PIR_API void pir_path_plan_describe(const pir_path_plan *plan, pir_path_plan_inf
  * them. A point may be rational: this is it, rounded, and pir_path_plan_waypoint_exact (exact.h) gives it exactly.
  *
  * index      below the count of points.
+ * ret_point  the point, rounded.
  * ret_exact  NULL, or whether the double is the point.
  *
  * Cost: O(1).

@@ -214,7 +214,7 @@ PIR_API pir_status pir_scene_remove(pir_scene *scene, uint32_t body);
  */
 PIR_API pir_status pir_scene_pose(const pir_scene *scene, uint32_t body, pir_pose *ret_pose);
 
-/** The number in an id: below 2^20, and of bodies that are in a scene at once each has another. O(1). */
+/** The number in `body`, an id: below 2^20, and of bodies that are in a scene at once each has another. O(1). */
 static inline uint32_t pir_body_number(uint32_t body) {
     return body & 0xfffff;
 }
@@ -272,6 +272,7 @@ PIR_API pir_status pir_scene_get_piece(const pir_scene *scene, uint32_t body, ui
  * Gives a body another number of the caller's. Events of the next update tell it.
  *
  * body  the id of a body of the scene.
+ * user  the number.
  *
  * Cost: O(1).
  *
@@ -283,6 +284,7 @@ PIR_API pir_status pir_scene_set_user(pir_scene *scene, uint32_t body, uint64_t 
  * Gives a piece of a body another number of the caller's.
  *
  * body, piece  as of pir_scene_get_piece.
+ * user         the number.
  *
  * Cost: O(pieces).
  *

@@ -91,6 +91,7 @@ PIR_API pir_status pir_solid_query_distance(pir_solid_query *query, pir_workspac
  *
  * workspace, input  scratch, poses, radii and cutoff.
  * ret_distance      the answer.
+ * ret_gradient      its first derivatives.
  * ret_curvature     NULL where second derivatives are not wanted.
  *
  * Cost: that of pir_solid_query_distance, and of a query of a pair.
