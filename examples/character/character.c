@@ -12,6 +12,8 @@
 #define NEAR    1e-3
 #define LEVEL   0.64 /* the least height of a unit normal that one can stand on: the cosine of 50 degrees */
 #define GRAVITY 9.81
+#define ROOM    5e-3
+#define GRAZING 0.05
 #define PLANES  6
 
 pir_scene_shape character_shape(const struct character *character) {
@@ -22,32 +24,48 @@ pir_scene_shape character_shape(const struct character *character) {
     return shape;
 }
 
-/* What is met first along a way; `except` is not met. */
-static pir_impact cast(struct character *c, pir_scene *scene, pir_vec3 way, uint32_t except) {
-    const pir_query_filter but = {.ignored = &except, .ignored_count = except != PIR_SCENE_NONE};
-    pir_impact impact = {.body = PIR_SCENE_NONE, .time = 1};
-    pir_scene_shape shape = character_shape(c);
-    shape.filter = &but;
-    if (c->status == PIR_OK)
-        c->status = pir_scene_cast(scene, &shape, &(pir_motion){.way = way}, NEAR, &impact);
-    return c->status == PIR_OK ? impact : (pir_impact){.body = PIR_SCENE_NONE, .time = 0};
+/* Out of what came too near: by all planes between the capsule and what is about it at once, so that it does not swing
+   from one to another. Nothing where there is room. */
+static void leave(struct character *c, pir_scene *scene) {
+    for (int round = 0; round < 4 && c->status == PIR_OK; round++) {
+        const pir_scene_shape shape = character_shape(c);
+        pir_scene_near near[16];
+        pir_vec3 by = {0, 0, 0};
+        size_t count = 0;
+        c->status = pir_scene_nearest(scene, &shape, 2 * CHARACTER_SKIN, 16, near, &count);
+        if (c->status != PIR_OK || count == 0 || near[0].result.distance > 2 * NEAR)
+            return;
+        for (size_t k = 0; k < 32 * count; k++) {
+            const pir_query_result *off = &near[k % count].result;
+            const double lacks = ROOM - off->distance - vec_dot(by, off->normal);
+            by = vec_add(by, vec_times(fmax(0, 0.5 * lacks), off->normal));
+        }
+        c->at = vec_add(c->at, by);
+    }
 }
 
-/* Goes along a way until a skin away from what is met. Whether anything is; `time` becomes the part that it went. */
+/* Goes along a way until a skin away from what is met; `except` is not met. Whether anything is; the time becomes the
+   part of the way that it went. The cast goes farther, so that what is near its end counts as well. */
 static bool go(struct character *c, pir_scene *scene, pir_vec3 way, uint32_t except, pir_impact *ret_impact) {
-    *ret_impact = cast(c, scene, way, except);
-    const bool meets = ret_impact->body != PIR_SCENE_NONE;
-    const double against = -vec_dot(ret_impact->normal, way), back = CHARACTER_SKIN - NEAR;
-    const double part = meets && against > 0 ? fmax(0, ret_impact->time - back / against) : ret_impact->time;
-    const double lacks = meets ? back - (ret_impact->time - part) * against : 0;
-    c->at = vec_add(c->at, vec_times(part, way));
-    ret_impact->time = part;
-    if (lacks > NEAR) { // it began nearer than a skin: away from it, where that is free
-        const pir_vec3 away = vec_times(lacks, ret_impact->normal);
-        if (cast(c, scene, away, ret_impact->body).body == PIR_SCENE_NONE)
-            c->at = vec_add(c->at, away);
-    }
-    return meets;
+    const pir_query_filter but = {.ignored = &except, .ignored_count = except != PIR_SCENE_NONE};
+    const double length = vec_length(way), back = CHARACTER_SKIN - NEAR, farther = length + back / GRAZING;
+    pir_scene_shape shape = character_shape(c);
+    shape.filter = &but;
+    *ret_impact = (pir_impact){.body = PIR_SCENE_NONE, .time = 0};
+    if (c->status != PIR_OK || length == 0)
+        return false;
+    const pir_motion motion = {.way = vec_times(farther / length, way)};
+    c->status = pir_scene_cast(scene, &shape, &motion, NEAR, ret_impact);
+    const double against = -vec_dot(ret_impact->normal, way) / length, until = ret_impact->time * farther;
+    const bool some = ret_impact->body != PIR_SCENE_NONE, grazes = some && against < GRAZING;
+    const double part = (some && !grazes ? fmax(0, until - back / against) : until) / length;
+    if (c->status != PIR_OK)
+        return false;
+    ret_impact->time = fmin(part, 1);
+    c->at = vec_add(c->at, vec_times(ret_impact->time, way));
+    if (grazes && part < 1) // over an edge, say: going back would not lead away from it
+        leave(c, scene);
+    return some && part < 1;
 }
 
 static bool is_free(pir_vec3 way, const pir_vec3 *plane, int count) {
@@ -107,33 +125,27 @@ static bool is_ground(struct character *c, pir_scene *scene, const pir_impact *i
     return c->status == PIR_OK && met.body != PIR_SCENE_NONE && met.outcome == PIR_CAST_HIT && met.normal.z >= LEVEL;
 }
 
-/* Down onto the ground, where there is some within a length; else it stays. */
+/* Down onto the ground, where there is some within a length, along what is steep; else it stays. */
 static bool settle(struct character *c, pir_scene *scene, double length) {
     const pir_vec3 from = c->at;
+    pir_vec3 plane[PLANES], way = {0, 0, -length};
     pir_impact impact;
-    c->stands = go(c, scene, (pir_vec3){0, 0, -length}, PIR_SCENE_NONE, &impact) && is_ground(c, scene, &impact);
-    c->ground = c->stands ? impact.body : PIR_SCENE_NONE;
-    if (c->stands)
-        c->status = pir_scene_pose(scene, c->ground, &c->stood);
-    else
-        c->at = from;
-    return c->stands;
-}
-
-/* Out of what came near, to a skin away from it. */
-static void leave(struct character *c, pir_scene *scene) {
-    for (int i = 0; i < 8 && c->status == PIR_OK; i++) {
-        const pir_scene_shape shape = character_shape(c);
-        pir_scene_near near;
-        size_t count = 0;
-        c->status = pir_scene_nearest(scene, &shape, 2 * NEAR, 1, &near, &count);
-        if (c->status != PIR_OK || count == 0)
-            return;
-        c->at = vec_add(c->at, vec_times(CHARACTER_SKIN - near.result.distance, near.result.normal));
+    for (int count = 0; count < PLANES && go(c, scene, way, PIR_SCENE_NONE, &impact);) {
+        if (is_ground(c, scene, &impact)) {
+            c->stands = true;
+            c->ground = impact.body;
+            c->status = pir_scene_pose(scene, c->ground, &c->stood);
+            return true;
+        }
+        plane[count++] = impact.normal;
+        way = along_planes(vec_times(1 - impact.time, way), plane, count);
     }
+    c->at = from;
+    c->stands = false;
+    return false;
 }
 
-/* On the level; where that is barred, up a stair, on and down to where one can stand, if this leads farther. */
+/* On the level; where that is barred, up a stair, on and down to where one can stand, if this leads up and farther. */
 static void walk(struct character *c, pir_scene *scene, pir_vec3 way) {
     const struct character before = *c;
     pir_impact impact;
@@ -145,7 +157,7 @@ static void walk(struct character *c, pir_scene *scene, pir_vec3 way) {
     const double up = c->at.z - before.at.z;
     slide(c, scene, way, PIR_SCENE_NONE, true);
     const double farther = vec_dot(vec_less(c->at, slid.at), way);
-    if (!settle(c, scene, up) || farther <= 1e-6 * vec_dot(way, way))
+    if (!settle(c, scene, up) || c->at.z < before.at.z + CHARACTER_SKIN || farther <= 1e-6 * vec_dot(way, way))
         *c = slid;
 }
 

@@ -93,7 +93,7 @@ def beside_capsule(at, half, box_sides):
 class Examples:
     def __init__(self, name, command):
         done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-        assert (done.returncode, done.stderr) == (0, ""), done
+        assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr, done.stdout[-400:])
         self.arguments, self.command = command[1:], command
         self.lines = done.stdout.splitlines()
         getattr(self, name)()
@@ -317,6 +317,16 @@ class Examples:
         for i, (a, b) in enumerate(zip(ride, ride[1:])):
             part = 1 if i + 21 < 120 else -1
             assert math.dist(add(b, a, -1), (part * 1.25 / 60, part * 0.5 / 60, part * 0.5 / 60)) < 1e-9, (i, a, b)
+
+    def game(self):
+        """One hash of all frames for each number of threads, and where no frame is taken back."""
+        line, = self.lines
+        form = r"hash [0-9a-f]{16}, (\d+) hits, (\d+) seen, (\d+) sensed, hero at (\S+) (\S+) (\S+)"
+        numbers = re.fullmatch(form, line)
+        hits, seen, sensed, *at = map(float, numbers.groups())
+        assert hits > 10 and seen > 1000 and sensed > 10 and at[0] > 18 and at[2] > 0.9, line
+        for arguments in (("2",), ("4",), ("3", "plain")):
+            assert self.again(*arguments) == self.lines, arguments
 
     def first(self):
         """A cube on a corner's edge, turned by 45 degrees, sunk by an eighth: its lower corners."""
