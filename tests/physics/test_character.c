@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The character of examples/character among hulls at random, on a floor or on hills: it never shares a point with
+ * anything, and where it comes no farther it stays where it is.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include <character.h>
+#include <vec.h>
+
+#include "support/random.h"
+
+#define HULLS  120
+#define SIDE   25
+#define FRAMES 240
+#define WATCH  100 /* frames at the end, in which it goes on or stays */
+
+static void add(pir_scene *scene, pir_body_shape *shape, pir_vec3 at) {
+    pir_body_options body = pir_body_shape_options(shape);
+    uint32_t id;
+    body.kind = PIR_BODY_STATIC;
+    body.pose.translation = at;
+    assert_int_equal(pir_scene_add(scene, &body, &id), PIR_OK);
+    pir_body_shape_release(shape);
+}
+
+static void add_hills(pir_scene *scene, test_random *random) {
+    float height[SIDE * SIDE];
+    pir_height_field *field;
+    pir_body_shape *shape;
+    for (int i = 0; i < SIDE * SIDE; i++)
+        height[i] = (float)(0.4 * test_random_unit(random));
+    const pir_height_samples samples = {height, PIR_NUMBERS_FLOAT, SIDE, SIDE, 1, 1, NULL, NULL};
+    assert_int_equal(pir_height_field_create(&samples, NULL, NULL, &field), PIR_OK);
+    assert_int_equal(pir_body_shape_field(field, 0, NULL, NULL, &shape), PIR_OK);
+    add(scene, shape, (pir_vec3){-12, -12, 0});
+    pir_height_field_release(field);
+}
+
+static void fill(pir_scene *scene, test_random *random, bool hills) {
+    pir_body_shape *shape;
+    if (hills) {
+        add_hills(scene, random);
+    } else {
+        assert_int_equal(pir_body_shape_box((pir_vec3){40, 40, 1}, 0, NULL, NULL, &shape), PIR_OK);
+        add(scene, shape, (pir_vec3){0, 0, -1});
+    }
+    for (int i = 0; i < HULLS; i++) {
+        const double size = 0.7 + 0.5 * test_random_unit(random);
+        pir_vec3 point[14];
+        for (int k = 0; k < 14; k++)
+            point[k] = vec_times(size, test_random_direction(random));
+        assert_int_equal(pir_body_shape_hull(point, 14, 0, NULL, NULL, &shape), PIR_OK);
+        const double x = 11 * test_random_unit(random), y = 11 * test_random_unit(random);
+        add(scene, shape, (pir_vec3){x, y, 1 + test_random_unit(random)});
+    }
+    assert_int_equal(pir_scene_update(scene, NULL, 0), PIR_OK);
+}
+
+/* Whether a walk in one direction ends at rest; where it does not, it goes on. */
+static bool walk(pir_scene *scene, struct character *c, pir_vec3 velocity, int world, int number) {
+    double path = 0;
+    pir_vec3 from = c->at;
+    for (int frame = 0; frame < FRAMES; frame++) {
+        const pir_vec3 before = c->at;
+        size_t count;
+        character_move(c, scene, velocity, 1. / 60);
+        assert_int_equal(c->status, PIR_OK);
+        const pir_scene_shape shape = character_shape(c);
+        pir_scene_hit hit;
+        assert_int_equal(pir_scene_overlap(scene, &shape, 1, &hit, &count), PIR_OK);
+        expect(count == 0, "world %d, walk %d, frame %d: in body %u", world, number, frame, hit.body);
+        if (frame == FRAMES - WATCH)
+            from = before;
+        path += frame >= FRAMES - WATCH ? vec_length(vec_less(c->at, before)) : 0;
+    }
+    const double far = vec_length(vec_less(c->at, from));
+    expect(path < 1e-6 || far > 0.02 * path, "world %d, walk %d: %g m for a way of %g m", world, number, path, far);
+    return path < 1e-6;
+}
+
+static void a_character_in_clutter(void **state) {
+    (void)state;
+    const char *asked = getenv("PIR_TEST_WORLDS");
+    const int worlds = asked ? atoi(asked) : 8;
+    const pir_vec3 end[2] = {{0, 0, -0.6}, {0, 0, 0.6}};
+    pir_polytope *spine;
+    int rests = 0, walks = 0;
+    assert_int_equal(pir_polytope_create(end, 2, NULL, &spine), PIR_OK);
+    for (int world = 0; world < worlds; world++) {
+        test_random random = test_random_case("character", (uint64_t)world);
+        pir_scene *scene;
+        assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+        fill(scene, &random, world % 2 == 1);
+        struct character c = {.spine = spine, .radius = 0.3, .body = PIR_SCENE_NONE, .at = {0, 0, 6}};
+        for (int i = 0; i < 20; i++, walks++) {
+            const pir_vec3 way = test_random_direction(&random);
+            rests += walk(scene, &c, vec_times(3, (pir_vec3){way.x, way.y, 0}), world, i);
+            if (fabs(c.at.x) > 9 || fabs(c.at.y) > 9)
+                c = (struct character){.spine = spine, .radius = 0.3, .body = PIR_SCENE_NONE, .at = {0, 0, 6}};
+        }
+        pir_scene_destroy(scene);
+    }
+    expect(rests > walks / 4, "%d of %d walks ended at rest", rests, walks);
+    pir_polytope_release(spine);
+}
+
+int main(void) {
+    test_print_seed();
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_character_in_clutter)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
