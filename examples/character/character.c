@@ -174,6 +174,7 @@ void character_move(struct character *c, pir_scene *scene, pir_vec3 velocity, do
         c->rise = 0;
         return;
     }
+    c->stands = false;
     slide(c, scene, (pir_vec3){0, 0, fall * time}, PIR_SCENE_NONE, false);
     c->rise = (c->at.z - from) / time; // what was met takes the rest
 }

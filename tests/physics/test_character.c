@@ -108,8 +108,39 @@ static void a_character_in_clutter(void **state) {
     pir_polytope_release(spine);
 }
 
+/* Up as high as the speed of a jump leads, or to a ceiling, and down again to where it stood. */
+static void a_jump(void **state) {
+    (void)state;
+    const pir_vec3 end[2] = {{0, 0, -0.6}, {0, 0, 0.6}};
+    pir_polytope *spine;
+    pir_body_shape *shape;
+    pir_scene *scene;
+    assert_int_equal(pir_polytope_create(end, 2, NULL, &spine), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    assert_int_equal(pir_body_shape_box((pir_vec3){9, 9, 1}, 0, NULL, NULL, &shape), PIR_OK);
+    add(scene, pir_body_shape_retain(shape), (pir_vec3){0, 0, -1});
+    add(scene, shape, (pir_vec3){10, 0, 3.2}); // its lower side is at 2.2, where x is above 1
+    for (int under = 0; under < 2; under++) {
+        struct character c = {.spine = spine, .radius = 0.3, .body = PIR_SCENE_NONE, .at = {4. * under, 0, 1}};
+        double top = 0, low = 9;
+        int stood = 0;
+        for (int frame = 0; frame < 180; frame++) {
+            c.rise = frame == 60 ? 4 : c.rise;
+            character_move(&c, scene, (pir_vec3){0, 0, 0}, 1. / 60);
+            assert_int_equal(c.status, PIR_OK);
+            top = frame >= 60 ? fmax(top, c.at.z) : 0;
+            low = fmin(low, c.at.z);
+            stood += frame >= 60 && c.stands;
+        }
+        assert_true(c.stands && low > 0.9 && c.at.z < 0.911 && stood < 110 && c.at.x == 4. * under);
+        assert_true(under ? top > 1.285 && top < 1.3 : top > 1.6 && top < 0.911 + 4 * 4 / (2 * 9.81));
+    }
+    pir_scene_destroy(scene);
+    pir_polytope_release(spine);
+}
+
 int main(void) {
     test_print_seed();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_character_in_clutter)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_jump), cmocka_unit_test(a_character_in_clutter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
