@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The character of examples/character among hulls at random, on a floor or on hills: it never shares a point with
- * anything, and where it comes no farther it stays where it is.
+ * anything, and where it comes no farther it stays where it is. It jumps, and rides what turns.
  */
 #include "support/test.h"
 
@@ -139,8 +139,44 @@ static void a_jump(void **state) {
     pir_polytope_release(spine);
 }
 
+/* On a table that turns and rises it stays where it stood on the table, and walks on it as on a floor at rest. */
+static void a_ride(void **state) {
+    (void)state;
+    const pir_vec3 end[2] = {{0, 0, -0.6}, {0, 0, 0.6}}, up = {0.25, 0, 0.5}, spin = {0, 0, 1};
+    pir_polytope *spine;
+    pir_body_shape *shape;
+    pir_scene *scene;
+    uint32_t table;
+    assert_int_equal(pir_polytope_create(end, 2, NULL, &spine), PIR_OK);
+    assert_int_equal(pir_scene_create(NULL, &scene), PIR_OK);
+    assert_int_equal(pir_body_shape_box((pir_vec3){4, 4, 0.25}, 0, NULL, NULL, &shape), PIR_OK);
+    pir_body_options body = pir_body_shape_options(shape);
+    body.kind = PIR_BODY_KINEMATIC;
+    assert_int_equal(pir_scene_add(scene, &body, &table), PIR_OK);
+    pir_body_shape_release(shape);
+    struct character c = {.spine = spine, .radius = 0.3, .body = PIR_SCENE_NONE, .at = {2, 1, 1.25}};
+    for (int frame = 0; frame < 30; frame++)
+        character_move(&c, scene, (pir_vec3){0, 0, 0}, 1. / 60);
+    assert_true(c.stands && c.ground == table);
+    pir_vec3 on = c.at;
+    pir_pose pose = pir_pose_identity();
+    for (int frame = 0; frame < 240; frame++) {
+        const pir_vec3 velocity = frame < 120 ? (pir_vec3){0, 0, 0} : (pir_vec3){0.5, -0.25, 0};
+        pose = pir_pose_integrate(pose, up, spin, 1. / 60);
+        assert_int_equal(pir_scene_update(scene, &(pir_scene_move){table, pose}, 1), PIR_OK);
+        character_move(&c, scene, velocity, 1. / 60);
+        assert_int_equal(c.status, PIR_OK);
+        on = vec_add(on, pir_pose_rotate_inverse(pose, vec_times(1. / 60, velocity)));
+        const double off = vec_length(vec_less(pir_pose_apply_inverse(pose, c.at), on));
+        expect(c.stands && off < 1e-9, "frame %d: %g m off its place", frame, off);
+    }
+    pir_scene_destroy(scene);
+    pir_polytope_release(spine);
+}
+
 int main(void) {
     test_print_seed();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_jump), cmocka_unit_test(a_character_in_clutter)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_jump), cmocka_unit_test(a_ride),
+                                       cmocka_unit_test(a_character_in_clutter)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
