@@ -81,16 +81,27 @@ def beside_box(point, sizes):
     return math.hypot(*(max(0, abs(c) - s / 2) for c, s in zip(point, sizes)))
 
 
+def beside_capsule(at, half, box_sides):
+    """How far a segment along z, its middle and half of it, is from a box along the axes."""
+    low, high = add(at, (0, 0, half), -1), add(at, (0, 0, half))
+    return math.hypot(*(max(0, a - h, l - b) for (a, b), l, h in zip(box_sides, low, high)))
+
+
 # ---- What the examples print ----------------------------------------------------------------------------------------
 
 
 class Examples:
     def __init__(self, name, command):
         done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-        assert (done.returncode, done.stderr) == (0, ""), done
-        self.arguments = command[1:]
+        assert (done.returncode, done.stderr) == (0, ""), (done.returncode, done.stderr, done.stdout[-400:])
+        self.arguments, self.command = command[1:], command
         self.lines = done.stdout.splitlines()
         getattr(self, name)()
+
+    def again(self, *arguments):
+        """The lines of another run, with these arguments."""
+        return subprocess.run([*self.command, *arguments], capture_output=True, text=True, timeout=600,
+                              check=True).stdout.splitlines()
 
     def rows(self, pattern, count):
         """The numbers of each line, all of which must match; so many lines."""
@@ -264,6 +275,58 @@ class Examples:
             else:
                 nearest = min(nearest, true)
         assert abs(nearest - least[-1]) < 1e-6, (nearest, least)
+
+    def character(self):
+        """A capsule on a course: how far it is from each block is worked out here, in every frame."""
+        assert self.again("2") == self.lines, "another way with two threads"
+        boxes = [((-20, 20), (-20, 40), (-1, 0)), ((3, 4), (9, 13), (-1, 3)), ((0, 3), (12, 13), (-1, 3)),
+                 ((0, 5), (22, 23), (-1, 3))] + [((1.6 + 0.4 * i, 8), (-1, 1), (-1, 0.25 * i)) for i in range(1, 9)]
+        planes = [((-math.sin(math.radians(80)), 0, math.cos(math.radians(80))), (3, 0, 0), (4, 7)),
+                  ((-math.sqrt(0.5), math.sqrt(0.5), 0), (1, 18, 0), (18, 22)),
+                  ((-math.sin(math.radians(35)), 0, math.cos(math.radians(35))), (2, 0, -4), (29, 31))]
+        told, rows = {}, {}
+        for line in self.lines:
+            name, frame, *numbers = re.fullmatch(r"([a-z ]+) (nearest|\d+) (.*)", line).groups()
+            numbers = [float(number) for number in numbers[0].split()]
+            if frame == "nearest":
+                told[name] = numbers[0]
+            else:
+                rows.setdefault(name, []).append((tuple(numbers[:3]), numbers[3] == 1))
+        for name, frames in rows.items():
+            least = math.inf
+            for i, (at, _) in enumerate(frames):
+                turn = min(i + 1, len(frames) - 1 - i) / 60  # how far a block has come
+                lift = {"platform": (1.25 * turn, 0.5 * turn, 0.5 * turn)}.get(name, (0, 0, 0))
+                ram = 1.5 * turn if name == "pushed" else 0
+                moved = [tuple((a + d, b + d) for (a, b), d in zip(((-6, -4), (-6, -4), (0.25, 0.5)), lift)),
+                         ((9 + ram, 10 + ram), (14, 17), (0.125, 2))]
+                gaps = [beside_capsule(at, 0.6, block) for block in boxes + moved]
+                gaps += [dot(add(at, foot, -1), n) - 0.6 * abs(n[2]) for n, foot, (low, high) in planes
+                         if low <= at[1] <= high]
+                least = min(least, min(gaps) - 0.3)
+            assert least > 0.0005 and abs(least - told[name]) < 1e-6, (name, least, told[name])
+        ends = {name: frames[-1][0] for name, frames in rows.items()}
+        assert set(told) == set(ends) and len(ends) == 8 and all(frames[-1][1] for frames in rows.values()), ends
+        assert ends["up stairs"][0] > 5 and 2.9 < ends["up stairs"][2] < 2.912, ends
+        assert ends["down stairs"][0] < -0.5 and 0.9 < ends["down stairs"][2] < 0.912, ends
+        assert ends["steep"][0] < 3 and 0.9 < ends["steep"][2] < 0.912, ends
+        assert ends["slope"][2] > 3 and ends["pushed"][0] > 13.3, ends
+        for name in ("steep", "corner", "narrow", "pushed"):
+            assert max(math.dist(at, ends[name]) for at, _ in rows[name][-100:]) < 1e-9, (name, rows[name][-100:])
+        ride = [at for at, _ in rows["platform"][20:]]
+        for i, (a, b) in enumerate(zip(ride, ride[1:])):
+            part = 1 if i + 21 < 120 else -1
+            assert math.dist(add(b, a, -1), (part * 1.25 / 60, part * 0.5 / 60, part * 0.5 / 60)) < 1e-9, (i, a, b)
+
+    def game(self):
+        """One hash of all frames for each number of threads, and where no frame is taken back."""
+        line, = self.lines
+        form = r"hash [0-9a-f]{16}, (\d+) hits, (\d+) seen, (\d+) sensed, hero at (\S+) (\S+) (\S+)"
+        numbers = re.fullmatch(form, line)
+        hits, seen, sensed, *at = map(float, numbers.groups())
+        assert hits > 10 and seen > 1000 and sensed > 10 and at[0] > 18 and at[2] > 0.9, line
+        for arguments in (("2",), ("4",), ("3", "plain")):
+            assert self.again(*arguments) == self.lines, arguments
 
     def first(self):
         """A cube on a corner's edge, turned by 45 degrees, sunk by an eighth: its lower corners."""
