@@ -11,20 +11,25 @@ from __future__ import annotations
 from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
 from ._native import ffi as _ffi
 from ._native import lib as _lib
-from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveSet, Contacts, Distances, Impact, Pair
+from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveGradients, ActiveSet, Contacts, Distances, Impact, Pair
+from ._plans import Plan, plan
 from ._polytopes import Facets, Mass, Mesh, Polytope
-from ._scenes import BEGAN, ENDED, PERSISTED, Events, Scene, SceneHits
-from ._solids import Depths, Pieces, Solid, SolidPair
+from ._scenes import BEGAN, ENDED, PERSISTED, BodyState, Events, Scene, SceneHits, SceneImpacts
+from ._shapes import Shape
+from ._solids import Depths, Pieces, Solid, SolidContacts, SolidPair
 from ._sums import MinkowskiSum
 from ._surfaces import HeightField, MeshDistances, MeshPair, Nearest, RayHits, TriMesh
+from ._turns import TurnEvent, TurnEvents
 
 __version__: str = _ffi.string(_lib.pir_version()).decode()
 
 __all__ = [
-    "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events",
-    "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
-    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
-    "Pair", "Pieces", "Polytope", "RayHits", "Scene", "SceneHits", "Solid", "SolidPair", "TriMesh",
+    "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "BodyState", "Contacts", "Depths", "Distances",
+    "ENDED", "Error", "Events", "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError",
+    "Mass", "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE",
+    "OutOfMemory", "PERSISTED", "Pair", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits",
+    "SceneImpacts", "Shape", "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent", "TurnEvents",
+    "plan",
 ]
 
 # Errors are told by the package's name.

@@ -38,6 +38,11 @@ class Mass(NamedTuple):
     inertia: Floats
 
 
+def mass_of(found: Any) -> Mass:
+    inertia = np.array([[found.inertia[i][j] for j in range(3)] for i in range(3)])
+    return Mass(found.volume, np.array([found.centroid.x, found.centroid.y, found.centroid.z]), inertia)
+
+
 class Mesh:
     """The boundary of a polytope or a sum: `vertices` (n, 3), `facets`, and which features each facet came from."""
 
@@ -194,8 +199,7 @@ class Polytope:
         """Volume, centroid and inertia about the centroid, of density 1."""
         found = ffi.new("pir_mass *")
         check(lib.pir_polytope_mass(self._pointer, found), "mass")
-        inertia = np.array([[found.inertia[i][j] for j in range(3)] for i in range(3)])
-        return Mass(found.volume, np.array([found.centroid.x, found.centroid.y, found.centroid.z]), inertia)
+        return mass_of(found)
 
     @property
     def volume(self) -> float:

@@ -12,6 +12,7 @@ from ._arrays import Bytes, Floats, Indices, pointer, quaternion, room, vectors
 from ._check import Handle, check
 from ._native import ffi, lib
 from ._polytopes import Body, Mesh, Polytope, as_polytope
+from ._turns import TurnEvent, TurnEvents
 
 
 class MinkowskiSum(Handle):
@@ -49,6 +50,17 @@ class MinkowskiSum(Handle):
         with self._held() as sum_:
             q = lib.pir_sum_rotation(sum_)
         return np.array([q.x, q.y, q.z, q.w])
+
+    # --- turning on ---
+
+    def events(self, axis: npt.ArrayLike) -> TurnEvents:
+        """The changes of the sum while P makes a full turn about `axis` from the present rotation, in order."""
+        return TurnEvents(self.p, self.q, axis, self.rotation)
+
+    def next_event(self, axis: npt.ArrayLike) -> Optional[TurnEvent]:
+        """The first of them, or None where the sum stays the same for a full turn."""
+        with self.events(axis) as events:
+            return next(events, None)
 
     # --- the pairing ---
 

@@ -147,6 +147,12 @@ def depth(a: pirouette.Solid, b: pirouette.Solid) -> npt.NDArray[np.float64]:
 mesh: pirouette.Mesh = pirouette.MinkowskiSum(np.eye(3), np.eye(3)).mesh()
 faces: npt.NDArray[np.uint32] = mesh.faces
 events: pirouette.Events = pirouette.Scene().update()
+turn = pirouette.MinkowskiSum(np.eye(3), np.eye(3)).next_event([0, 0, 1])
+angle: float = turn.angle[0] if turn is not None else 0.0
+way: pirouette.Plan = pirouette.plan(pirouette.Polytope.shape("cube"), [pirouette.Polytope.shape("cube")], [0, 0, 3],
+                                     [3, 0, 0], bounds=[[-4, -4, -4], [4, 4, 4]])
+points: npt.NDArray[np.float64] = way.points
+body: int = pirouette.Scene().add(pirouette.Shape.ball(1.0), fast=1e-6)
 '''
 
 
