@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ._arrays import Bytes, Floats, Indices, pointer, quaternion, room, vectors
 from ._check import Handle, check
 from ._native import ffi, lib
+from ._pictures import svg_of
 from ._polytopes import Body, Mesh, Polytope, as_polytope
 from ._turns import TurnEvent, TurnEvents
 
@@ -189,6 +190,11 @@ class MinkowskiSum(Handle):
         with self._held() as sum_:
             pairs = lib.pir_sum_ee_count(sum_)
         return f"<MinkowskiSum: {self.p!r} + {self.q!r}, {pairs} pairs of edges>"
+
+    def _repr_html_(self) -> str:
+        """A picture of the sum in a notebook, as SVG that needs nothing else. Facets of P are blue, of Q orange, of
+        edges green, of several of these violet."""
+        return svg_of(self.mesh(), repr(self))
 
     def turned(self, axis: npt.ArrayLike, angle: float) -> None:
         """Brings the sum to the rotation about an axis by an angle in radians, from rest."""

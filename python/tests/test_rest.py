@@ -2,6 +2,7 @@
 """Turns, second derivatives, contacts of solids, plans, shapes, and scenes whose bodies change."""
 import json
 import pickle
+import xml.etree.ElementTree
 
 import numpy as np
 import pytest
@@ -48,6 +49,19 @@ def test_a_sum_that_stays_has_no_event():
     assert pirouette.MinkowskiSum(CORNERS, CORNERS).next_event([0, 0, 1]).angle[0] == pytest.approx(90)
     with pytest.raises(pirouette.InputError, match="axis"):
         pirouette.MinkowskiSum(CORNERS, CORNERS).next_event([0, 0, 0])
+
+
+def test_a_notebook_shows_a_picture_of_a_sum():
+    for p, q in ((sphere(12), CORNERS), (CORNERS, [[0, 0, 0], [1, 0, 0], [0, 1, 0]]),
+                 ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1, 0]]), (CORNERS * 1e-200, CORNERS)):
+        sum_ = pirouette.MinkowskiSum(p, q, [1, 2, 3, 4])
+        root = xml.etree.ElementTree.fromstring(sum_._repr_html_())
+        mesh, found = sum_.mesh(), root.findall(".//{*}polygon")
+        assert root.find("{*}title").text == repr(sum_) and 1 <= len(found) <= len(mesh)
+        for polygon in found:
+            points = np.array([point.split(",") for point in polygon.get("points").split()], float)
+            assert points.min() >= 11.9 and points.max() <= 348.1
+    assert len(found) < len(mesh)
 
 
 def moved(poses, axis, by):
