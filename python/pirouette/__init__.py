@@ -9,6 +9,7 @@ Python's lock, so threads run at once, each on objects of its own; an object tha
 from __future__ import annotations
 
 from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
+from ._cspaces import BLOCKED, FREE, HAS_SLICES, UNKNOWN, Configurations, CSpace, Segments
 from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveGradients, ActiveSet, Contacts, Distances, Impact, Pair
@@ -24,12 +25,12 @@ from ._turns import TurnEvent, TurnEvents
 __version__: str = _ffi.string(_lib.pir_version()).decode()
 
 __all__ = [
-    "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "BodyState", "Contacts", "Depths", "Distances",
-    "ENDED", "Error", "Events", "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError",
-    "Mass", "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE",
-    "OutOfMemory", "PERSISTED", "Pair", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits",
-    "SceneImpacts", "Shape", "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent", "TurnEvents",
-    "plan",
+    "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BLOCKED", "BOUNDARY", "BodyState", "CSpace",
+    "Configurations", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events", "FREE", "Facets",
+    "FileError", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
+    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
+    "Pair", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits", "SceneImpacts", "Segments", "Shape",
+    "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent", "TurnEvents", "UNKNOWN", "plan",
 ]
 
 # Errors are told by the package's name.
