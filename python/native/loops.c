@@ -3,7 +3,10 @@
 #include "loops.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include <pirouette/exact.h>
 
 void py_polytope_vertices(const pir_polytope *polytope, pir_vec3 *ret_vertices) {
     for (uint32_t v = 0; v < pir_polytope_vertex_count(polytope); v++)
@@ -66,6 +69,83 @@ void py_trimesh_triangles(const pir_trimesh *mesh, double *ret_corners, uint32_t
             ret_materials[t] = triangle.material;
         }
     }
+}
+
+static int rational_text(mpq_t coordinates[3], pir_status status, size_t size, char *text) {
+    int length = -1;
+    if (status == PIR_OK)
+        length = gmp_snprintf(text, size, "%Qd %Qd %Qd", coordinates[0], coordinates[1], coordinates[2]);
+    mpq_clears(coordinates[0], coordinates[1], coordinates[2], NULL);
+    return length;
+}
+
+int py_mesh_vertex_text(const pir_mesh *mesh, uint32_t vertex, size_t size, char *text) {
+    mpq_t coordinates[3];
+    mpq_inits(coordinates[0], coordinates[1], coordinates[2], NULL);
+    return rational_text(coordinates, pir_mesh_vertex_exact(mesh, vertex, coordinates), size, text);
+}
+
+int py_polytope_vertex_text(const pir_polytope *polytope, uint32_t vertex, size_t size, char *text) {
+    mpq_t coordinates[3];
+    mpq_inits(coordinates[0], coordinates[1], coordinates[2], NULL);
+    pir_polytope_vertex_exact(polytope, vertex, coordinates);
+    return rational_text(coordinates, PIR_OK, size, text);
+}
+
+pir_status py_polytope_of_text(const char *text, size_t count, pir_polytope **ret_polytope) {
+    mpq_t *coordinates = malloc((3 * count + 1) * sizeof *coordinates);
+    if (!coordinates)
+        return PIR_ERR_MEMORY;
+    pir_status status = PIR_OK;
+    for (size_t i = 0; i < 3 * count; i++) {
+        mpq_init(coordinates[i]);
+        if (mpq_set_str(coordinates[i], text, 10) != 0 || mpz_sgn(mpq_denref(coordinates[i])) == 0) {
+            mpq_set_ui(coordinates[i], 0, 1);
+            status = PIR_ERR_ARGUMENT;
+        }
+        mpq_canonicalize(coordinates[i]);
+        text += strlen(text) + 1;
+    }
+    if (status == PIR_OK)
+        status = pir_polytope_create_exact((const mpq_t *)coordinates, count, NULL, ret_polytope);
+    for (size_t i = 0; i < 3 * count; i++)
+        mpq_clear(coordinates[i]);
+    free(coordinates);
+    return status;
+}
+
+void py_live_mesh_starts(const pir_live_mesh *live, uint32_t *ret_starts) {
+    ret_starts[0] = 0;
+    for (uint32_t slot = 0; slot < pir_live_mesh_facet_slots(live); slot++) {
+        uint32_t count;
+        pir_live_mesh_facet(live, slot, &count);
+        ret_starts[slot + 1] = ret_starts[slot] + count;
+    }
+}
+
+void py_live_mesh_corners(const pir_live_mesh *live, uint32_t *ret_corners) {
+    for (uint32_t slot = 0; slot < pir_live_mesh_facet_slots(live); slot++) {
+        uint32_t count;
+        const uint32_t *corners = pir_live_mesh_facet(live, slot, &count);
+        if (count > 0)
+            memcpy(ret_corners, corners, count * sizeof *corners);
+        ret_corners += count;
+    }
+}
+
+pir_status py_query_penetrations(pir_query *query, const double *translations, size_t count,
+                                 pir_query_result *ret_results, size_t *ret_done) {
+    pir_query_input input = pir_query_input_default();
+    pir_query_cache cache;
+    memset(&cache, 0, sizeof cache);
+    pir_status status = PIR_OK;
+    size_t i = 0;
+    for (; i < count && status == PIR_OK; i += status == PIR_OK) {
+        input.translation = (pir_vec3){translations[3 * i], translations[3 * i + 1], translations[3 * i + 2]};
+        status = pir_query_penetration(query, &input, &cache, &ret_results[i]);
+    }
+    *ret_done = i;
+    return status;
 }
 
 void py_sum_ee(const pir_sum *sum, uint32_t *ret_pairs) {

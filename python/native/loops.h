@@ -20,6 +20,15 @@ void py_mesh_starts(const pir_mesh *mesh, uint32_t *ret_starts);
 void py_mesh_corners(const pir_mesh *mesh, uint32_t *ret_corners);
 void py_mesh_kinds(const pir_mesh *mesh, uint8_t *ret_kinds);
 void py_trimesh_triangles(const pir_trimesh *mesh, double *ret_corners, uint32_t *ret_materials);
+/* The exact coordinates of a vertex as text, "1/3 0 -2"; the length it has, as of snprintf, or -1 without rationals. */
+int py_mesh_vertex_text(const pir_mesh *mesh, uint32_t vertex, size_t size, char *text);
+int py_polytope_vertex_text(const pir_polytope *polytope, uint32_t vertex, size_t size, char *text);
+/* The hull of points in rationals, each number ended by a zero, three of them a point. */
+pir_status py_polytope_of_text(const char *text, size_t count, pir_polytope **ret_polytope);
+void py_live_mesh_starts(const pir_live_mesh *live, uint32_t *ret_starts);
+void py_live_mesh_corners(const pir_live_mesh *live, uint32_t *ret_corners);
+pir_status py_query_penetrations(pir_query *query, const double *translations, size_t count,
+                                 pir_query_result *ret_results, size_t *ret_done);
 void py_sum_ee(const pir_sum *sum, uint32_t *ret_pairs);
 pir_status py_surface_rays(const pir_trimesh *mesh, const pir_height_field *field, const double *rays,
                            pir_ray_sides sides, size_t count, pir_ray_hit *ret_hits, size_t *ret_done);

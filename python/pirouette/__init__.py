@@ -18,7 +18,7 @@ from ._polytopes import Facets, Mass, Mesh, Polytope
 from ._scenes import BEGAN, ENDED, PERSISTED, BodyState, Events, Scene, SceneHits, SceneImpacts
 from ._shapes import Shape
 from ._solids import Depths, Pieces, Solid, SolidContacts, SolidPair
-from ._sums import MinkowskiSum
+from ._sums import LiveMesh, MinkowskiSum, Penetrations
 from ._surfaces import HeightField, MeshDistances, MeshPair, Nearest, RayHits, TriMesh
 from ._turns import TurnEvent, TurnEvents
 
@@ -27,10 +27,11 @@ __version__: str = _ffi.string(_lib.pir_version()).decode()
 __all__ = [
     "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BLOCKED", "BOUNDARY", "BodyState", "CSpace",
     "Configurations", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events", "FREE", "Facets",
-    "FileError", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
-    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
-    "Pair", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits", "SceneImpacts", "Segments", "Shape",
-    "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent", "TurnEvents", "UNKNOWN", "plan",
+    "FileError", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "LiveMesh", "Mass",
+    "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory",
+    "PERSISTED", "Pair", "Penetrations", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits",
+    "SceneImpacts", "Segments", "Shape", "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent",
+    "TurnEvents", "UNKNOWN", "plan",
 ]
 
 # Errors are told by the package's name.

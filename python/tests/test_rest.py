@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """Turns, second derivatives, contacts of solids, plans, shapes, and scenes whose bodies change."""
+import copy
 import json
 import pickle
 import xml.etree.ElementTree
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -49,6 +51,66 @@ def test_a_sum_that_stays_has_no_event():
     assert pirouette.MinkowskiSum(CORNERS, CORNERS).next_event([0, 0, 1]).angle[0] == pytest.approx(90)
     with pytest.raises(pirouette.InputError, match="axis"):
         pirouette.MinkowskiSum(CORNERS, CORNERS).next_event([0, 0, 0])
+
+
+def test_rationals_go_in_and_out():
+    third = [[Fraction(1, 3), 0, 0], [0, "2/7", 0], [0, 0, 1.5], [0, 0, 0]]
+    body = pirouette.Polytope.from_fractions(third)
+    assert sorted(body.exact) == sorted(tuple(map(Fraction, point)) for point in third)
+    assert np.allclose(sorted(body.vertices.tolist()), sorted([float(Fraction(x)) for x in point] for point in third))
+    sum_ = pirouette.MinkowskiSum(body, body)
+    assert set(sum_.mesh(exact=True).exact) == {tuple(2 * x for x in point) for point in body.exact}
+    with pytest.raises(pirouette.InputError, match="exact"):
+        sum_.mesh().exact
+    for wrong in ([[1, 2]], [["x", 0, 0]], [[0, 0, float("nan")]], [["1/0", 0, 0]], [3], 3, [[1, 2, None]]):
+        with pytest.raises(pirouette.InputError, match="points"):
+            pirouette.Polytope.from_fractions(wrong)
+    with pytest.raises(pirouette.InputError):
+        pirouette.Polytope.from_fractions([])
+
+
+def test_penetrations_are_those_of_pairs():
+    p, q, poses = sphere(20), sphere(30), hovering(200, reach=1.2)
+    turn = [1, 2, 3, 4]
+    poses[:, :4] = turn
+    sum_, pair = pirouette.MinkowskiSum(p, q, turn), pirouette.Pair(p, q).signed_distance(poses)
+    found = sum_.penetrations(poses[:, 4:])
+    inside = pair.state == pirouette.INSIDE
+    assert inside.sum() > 20 and np.array_equal(found.state, pair.state)
+    assert np.allclose(found.depth, np.maximum(-pair.distance, 0), atol=1e-12)
+    assert np.allclose(found.normal[inside], pair.normal[inside], atol=1e-9)
+    # a cone about a normal answers with the depth there, without it with more
+    at = int(np.argmin(pair.distance))
+    sum_.set_region(found.normal[at], 0.2)
+    assert sum_.penetrations(poses[at, 4:]).depth == pytest.approx(found.depth[at])
+    assert len(sum_.ee) < len(pirouette.MinkowskiSum(p, q, turn).ee)
+    other = copy.copy(sum_)
+    other.set_region(-found.normal[at], 0.2)
+    assert other.penetrations(poses[at, 4:]).depth > found.depth[at]
+    with pytest.raises(pirouette.Error) as told:
+        sum_.distances(poses[:, 4:])
+    assert told.value.status == "REGION"
+    sum_.clear_region()
+    assert np.array_equal(sum_.penetrations(poses[:, 4:]).depth, found.depth)
+    assert sum_.statistics()["rebuilds"] >= 0
+    with pytest.raises(pirouette.InputError, match="axis"):
+        sum_.set_region([0, 0, 0], 1)
+
+
+def test_a_live_mesh_is_the_mesh():
+    sum_ = pirouette.MinkowskiSum(sphere(12), sphere(15, 3))
+    live = sum_.live()
+    for i in range(20):
+        sum_.rotate([0.02 * i, 0.01 * i, 0, 1])
+        live.refresh()
+        a, b, c = live.vertices[live.facets.triangles()].swapaxes(0, 1)
+        mesh = sum_.mesh()
+        d, e, f = mesh.vertices[mesh.faces].swapaxes(0, 1)
+        assert np.isclose((a * np.cross(b, c)).sum(), (d * np.cross(e, f)).sum())
+    assert set(live.rewritten.tolist()) <= set(range(live.slots)) and "LiveMesh" in repr(live)
+    sum_.close()
+    with pytest.raises(pirouette.InputError, match="closed"):
+        live.refresh()
 
 
 def test_a_notebook_shows_a_picture_of_a_sum():
