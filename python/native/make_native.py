@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 """Writes the C of the module `_native`, by cffi, from the public headers as the C preprocessor reads them.
 
-Usage: make_native.py OUTPUT INCLUDE LOOPS COMPILER...   INCLUDE holds pirouette/; LOOPS is loops.h.
+Usage: make_native.py LOOPS... OUTPUT INCLUDE COMPILER...   LOOPS are loops.h and those beside it, which include the
+public headers that the module is to have; OUTPUT is a .c file; INCLUDE holds pirouette/.
 
 What cffi is told is what the compiler sees, so it cannot drift from the headers: a struct or a function that differs
 does not compile.
@@ -13,15 +14,16 @@ import sys
 
 import cffi
 
-SOURCE = '#include "loops.h"\n'
 LINE = re.compile(r'# (\d+) "([^"]*)"')
 CONSTANT = re.compile(r"#define (PIR_\w+) +(\(?[-+\w<() ]+\)?)$")
+# cffi writes no C for a pointer to an array of constants; as the last field of a struct it is left out
+CONSTANT_ARRAY = re.compile(r"const \w+ \(\*\w+\)\[\d+\];\s*(?=})")
 NUMBER = re.compile(r"\(?(\d+|UINT8_MAX|UINT32_MAX|0x[0-9a-fA-F]+)[uUlL]*\)?$")
 
 
-def seen(include, compiler):
+def seen(include, loops, compiler):
     """The lines of the public headers after the preprocessor, and the macros that are whole numbers."""
-    source = "#include <pirouette/pirouette.h>\n"
+    source = "".join(re.findall("#include <pirouette/.*\n", "".join(loops)))
     text = subprocess.run([*compiler, "-E", "-dD", f"-I{include}", "-x", "c", "-"], input=source, text=True, check=True,
                           stdout=subprocess.PIPE).stdout
     ours, lines, constants = False, [], []
@@ -54,18 +56,22 @@ def without_bodies(text):
 
 
 def declarations(include, loops, compiler):
-    text, constants = seen(include, compiler)
+    text, constants = seen(include, loops, compiler)
     text = re.sub(r"__attribute__\s*\(\((?:[^()]|\([^()]*\))*\)\)", "", without_bodies(text))
-    own = pathlib.Path(loops).read_text(encoding="utf-8").split("/* cffi: begin */")[1].split("/* cffi: end */")[0]
+    text = CONSTANT_ARRAY.sub("...; ", text)
+    own = "".join(header.split("/* cffi: begin */")[1].split("/* cffi: end */")[0] for header in loops)
     return text + own + "".join(f"#define {name} ...\n" for name in constants)
 
 
-def main(output, include, loops, compiler):
+def main(arguments):
+    at = next(i for i, argument in enumerate(arguments) if argument.endswith(".c"))
+    headers = [pathlib.Path(argument) for argument in arguments[:at]]
+    output, include, *compiler = arguments[at:]
     ffi = cffi.FFI()
-    ffi.cdef(declarations(include, loops, compiler))
-    ffi.set_source("pirouette._native", SOURCE)
+    ffi.cdef(declarations(include, [header.read_text(encoding="utf-8") for header in headers], compiler))
+    ffi.set_source("pirouette._native", "".join(f'#include "{header.name}"\n' for header in headers))
     ffi.emit_c_code(output)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2], sys.argv[3], sys.argv[4:])
+    main(sys.argv[1:])

@@ -9,22 +9,29 @@ Python's lock, so threads run at once, each on objects of its own; an object tha
 from __future__ import annotations
 
 from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
+from ._cspaces import BLOCKED, FREE, HAS_SLICES, UNKNOWN, Configurations, CSpace, Segments
 from ._native import ffi as _ffi
 from ._native import lib as _lib
-from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveSet, Contacts, Distances, Impact, Pair
+from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveGradients, ActiveSet, Contacts, Distances, Impact, Pair
+from ._plans import Plan, plan
 from ._polytopes import Facets, Mass, Mesh, Polytope
-from ._scenes import BEGAN, ENDED, PERSISTED, Events, Scene, SceneHits
-from ._solids import Depths, Pieces, Solid, SolidPair
-from ._sums import MinkowskiSum
+from ._scenes import BEGAN, ENDED, PERSISTED, BodyState, Events, Scene, SceneHits, SceneImpacts
+from ._shapes import Shape
+from ._solids import Depths, Pieces, Solid, SolidContacts, SolidPair
+from ._sums import LiveMesh, MinkowskiSum, Penetrations
 from ._surfaces import HeightField, MeshDistances, MeshPair, Nearest, RayHits, TriMesh
+from ._turns import TurnEvent, TurnEvents
 
 __version__: str = _ffi.string(_lib.pir_version()).decode()
 
 __all__ = [
-    "ActiveSet", "BAD", "BEGAN", "BOUNDARY", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events",
-    "Facets", "FileError", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "Mass", "Mesh",
-    "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED",
-    "Pair", "Pieces", "Polytope", "RayHits", "Scene", "SceneHits", "Solid", "SolidPair", "TriMesh",
+    "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BLOCKED", "BOUNDARY", "BodyState", "CSpace",
+    "Configurations", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events", "FREE", "Facets",
+    "FileError", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "LiveMesh", "Mass",
+    "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory",
+    "PERSISTED", "Pair", "Penetrations", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits",
+    "SceneImpacts", "Segments", "Shape", "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent",
+    "TurnEvents", "UNKNOWN", "plan",
 ]
 
 # Errors are told by the package's name.

@@ -70,7 +70,7 @@ def indices(name: str, value: Any, width: Optional[int] = None) -> Indices:
         array = np.asarray(value) if width is not None else np.atleast_1d(np.asarray(value))
     except (TypeError, ValueError) as wrong:
         raise InputError(f"{name}: not an array of whole numbers: {wrong}") from None
-    if array.size == 0:
+    if array.size == 0 and array.dtype.kind != "c":
         array = array.reshape((0,) if width is None else (0, width)).astype(np.uint32)
     if array.dtype.kind not in "iu":
         raise InputError(f"{name}: its numbers are {array.dtype}, not whole numbers")

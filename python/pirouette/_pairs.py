@@ -8,7 +8,7 @@ from typing import Any, Callable, NamedTuple, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Bools, Bytes, Floats, dtype_of, number, pointer, poses, room, whole
+from ._arrays import Bools, Bytes, Floats, dtype_of, fail_at, number, pointer, poses, room, whole
 from ._check import Handle, InputError, check, error
 from ._native import ffi, lib
 from ._polytopes import Body, Polytope, as_polytope
@@ -22,7 +22,9 @@ class Distances(NamedTuple):
     `state` is 0 outside, 1 touching, 2 overlapping (exact), 255 bad; `distance` is the separation, or minus the depth;
     `normal` is a unit vector from Q to P; `point_p` and `point_q` are the nearest or deepest points in the world;
     `gradient` is the derivative of the distance by P's translation and by its turn about its own origin, in the world;
-    `status` is 0, or why the pose is bad. What was not asked for is None.
+    `status` is 0, or why the pose is bad; `hessian`, (n, 12, 12), has the second derivatives of the distance, and
+    `turning`, (n, 3, 12), the derivatives of the normal, both by the translation and the turn of P, then of Q, in the
+    world; NaN where they are not known. What was not asked for is None.
     """
 
     state: Bytes
@@ -33,6 +35,8 @@ class Distances(NamedTuple):
     gradient: Optional[Floats]
     witness: Optional["npt.NDArray[Any]"]
     status: Bytes
+    hessian: Optional[Floats] = None
+    turning: Optional[Floats] = None
 
 
 class Contacts(NamedTuple):
@@ -114,6 +118,20 @@ def pairs_of_poses(poses_p: Any, poses_q: Any) -> Tuple[Floats, Tuple[int, ...]]
     return made, shape
 
 
+class ActiveGradients(NamedTuple):
+    """The gradients at a tie. Corners of one facet of the difference, or of the polygon of nearest points, have one
+    number in `facet`; `gradient`, (n, 12), is by the translation and the turn of P, then of Q, in the world. Along a
+    small motion m the distance changes by the greatest over facets of the least over their corners of gradient · m."""
+
+    facet: "npt.NDArray[np.uint32]"
+    distance: Floats
+    normal: Floats
+    point_p: Floats
+    point_q: Floats
+    gradient: Floats
+    witness: "npt.NDArray[Any]"
+
+
 class ActiveSet(NamedTuple):
     """Ways out of an overlap: depths, unit normals from Q to P, and the features whose facet of the sum it is."""
 
@@ -181,13 +199,14 @@ class Pair(Handle):
 
     def signed_distance(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None, *,
                         cutoff: float = math.inf, points: bool = True, gradient: bool = False, witness: bool = False,
-                        radius_p: float = 0.0, radius_q: float = 0.0, out: Optional[Floats] = None,
-                        bad: str = "raise") -> Distances:
+                        hessian: bool = False, radius_p: float = 0.0, radius_q: float = 0.0,
+                        out: Optional[Floats] = None, bad: str = "raise") -> Distances:
         """Separations where the bodies are apart, minus the depths where they overlap.
 
         cutoff    distances above it are the cutoff, without points.
         points    whether normals and points are wanted.
         gradient  whether derivatives are wanted; witness: the features that attain each answer.
+        hessian   whether second derivatives and those of the normal are: a second query a pose.
         out       an array for the distances.
         bad       ``"raise"`` for an error at the first pose that is none, ``"nan"`` for NaN and its `status`.
         """
@@ -207,7 +226,26 @@ class Pair(Handle):
         arrays.witness = pointer(features, "pir_witness *")
         settings = (number("cutoff", cutoff), 0.0, number("radius_p", radius_p), number("radius_q", radius_q))
         self._ask(lib.pir_pair_batch_signed_distance, (p, q, count), arrays, settings, bad)
-        return Distances(state, distance, normal, point_p, point_q, slopes, features, status)
+        found = Distances(state, distance, normal, point_p, point_q, slopes, features, status)
+        if not hessian:
+            return found
+        second, turning = self._curvatures(p, q, status, (settings[0], *settings[2:]))
+        return found._replace(hessian=second, turning=turning)
+
+    def _curvatures(self, p: Floats, q: Optional[Floats], status: Bytes,
+                    settings: Tuple[float, float, float]) -> Tuple[Floats, Floats]:
+        """Second derivatives, and those of the normal, of poses whose status is 0; NaN where they are not known."""
+        posed = np.empty((status.size, 14))
+        posed[:, :7], posed[:, 7:] = p, np.array([[0.0, 0, 0, 1, 0, 0, 0]]) if q is None else q
+        found, done = np.empty(status.size, dtype_of("pir_curvature")), ffi.new("size_t *")
+        asked = ffi.new("py_posed *", [pointer(posed), pointer(status, "uint8_t *"), status.size, *settings])
+        with self._held():
+            pair, workspace = self._single()
+            code = lib.py_pair_curvatures(pair, workspace, asked, pointer(found, "pir_curvature *"), done)
+        fail_at(code, "poses_p or poses_q", done[0])
+        known = found["is_known"][:, None, None]
+        return (np.where(known, found["hessian"], math.nan).reshape(status.shape + (12, 12)),
+                np.where(known, found["normal"], math.nan).reshape(status.shape + (3, 12)))
 
     def states(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None, *,
                bad: str = "raise") -> Bytes:
@@ -269,6 +307,20 @@ class Pair(Handle):
                    slack: float = 0.0) -> ActiveSet:
         """Every way out of an overlap that is at most `slack` longer than the depth: what a solver may choose among.
         There are none unless the bodies overlap."""
+        found = self._all_of(lib.py_pair_escapes, "pir_escape", pose_p, pose_q, slack)
+        return ActiveSet(found["depth"].copy(), found["normal"].copy(), found["witness"].copy())
+
+    def active_gradients(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                         slack: float = 0.0) -> ActiveGradients:
+        """The gradients of all features that tie for the distance, decided exactly; of bodies that overlap also those
+        of facets whose depth is at most `slack` greater. The first is that of `signed_distance`."""
+        found = self._all_of(lib.py_pair_active, "pir_active", pose_p, pose_q, slack)
+        gradient = np.hstack([found[body][part] for body in "pq" for part in ("force", "torque")])
+        return ActiveGradients(found["facet"].copy(), found["distance"].copy(), found["normal"].copy(),
+                               found["point_p"].copy(), found["point_q"].copy(), gradient, found["features"].copy())
+
+    def _all_of(self, call: Any, kind: str, pose_p: Any, pose_q: Any, slack: float) -> "npt.NDArray[Any]":
+        """All structs that a question about one pose is answered by, however many they are."""
         posed, shape = pairs_of_poses(pose_p, pose_q)
         if shape:
             raise InputError(f"pose_p or pose_q: {len(posed)} poses, not one")
@@ -276,14 +328,12 @@ class Pair(Handle):
         with self._held():
             pair, workspace = self._single()
             while True:
-                found = np.empty(capacity, dtype_of("pir_escape"))
-                check(lib.py_pair_escapes(pair, workspace, pointer(posed), limit, capacity,
-                                          pointer(found, "pir_escape *"), count), "slack or pose")
+                found = np.empty(capacity, dtype_of(kind))
+                check(call(pair, workspace, pointer(posed), limit, capacity, pointer(found, f"{kind} *"), count),
+                      "slack or pose")
                 if count[0] <= capacity:
-                    break
+                    return found[:count[0]]
                 capacity = count[0]
-        found = found[:count[0]]
-        return ActiveSet(found["depth"].copy(), found["normal"].copy(), found["witness"].copy())
 
     def _single(self) -> Tuple[Any, Any]:
         """A pair for questions about one pose, with its workspace."""

@@ -2,7 +2,8 @@
 """Polytopes, and meshes of their boundaries and of sums."""
 from __future__ import annotations
 
-from typing import Any, Callable, NamedTuple, Tuple, Union
+from fractions import Fraction
+from typing import Any, Callable, Iterable, NamedTuple, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -38,6 +39,27 @@ class Mass(NamedTuple):
     inertia: Floats
 
 
+def _fractions(call: Any, pointer_: Any, vertex: int) -> "tuple[Fraction, Fraction, Fraction]":
+    length = call(pointer_, vertex, 0, ffi.NULL)
+    if length < 0:
+        raise InputError("exact: this mesh has no rationals; mesh(exact=True) keeps them")
+    text = ffi.new("char[]", length + 1)
+    call(pointer_, vertex, length + 1, text)
+    x, y, z = ffi.string(text).decode().split()
+    return Fraction(x), Fraction(y), Fraction(z)
+
+
+def _three(point: Sequence[Any]) -> Sequence[Any]:
+    if len(point) != 3:
+        raise ValueError(f"a point has {len(point)} numbers")
+    return point
+
+
+def mass_of(found: Any) -> Mass:
+    inertia = np.array([[found.inertia[i][j] for j in range(3)] for i in range(3)])
+    return Mass(found.volume, np.array([found.centroid.x, found.centroid.y, found.centroid.z]), inertia)
+
+
 class Mesh:
     """The boundary of a polytope or a sum: `vertices` (n, 3), `facets`, and which features each facet came from."""
 
@@ -50,6 +72,12 @@ class Mesh:
         made = np.empty((count, 3))
         ffi.memmove(pointer(made), lib.pir_mesh_vertices(self._pointer), made.nbytes)
         return made
+
+    @property
+    def exact(self) -> "list[tuple[Fraction, Fraction, Fraction]]":
+        """The vertices in rationals, of a mesh that was made with `exact`."""
+        count = lib.pir_mesh_vertex_count(self._pointer)
+        return [_fractions(lib.py_mesh_vertex_text, self._pointer, v) for v in range(count)]
 
     @property
     def facets(self) -> Facets:
@@ -106,6 +134,23 @@ class Polytope:
         made = ffi.new("pir_polytope **")
         check(lib.pir_polytope_create(pointer(array, "pir_vec3 *"), len(array), options, made), "points")
         self._pointer = ffi.gc(made[0], lib.pir_polytope_release)
+
+    @classmethod
+    def from_fractions(cls, points: Iterable[Sequence[Any]]) -> "Polytope":
+        """The hull of points in rationals: of Fractions, or whatever a Fraction is made of."""
+        try:
+            numbers = [Fraction(number) for point in points for number in _three(point)]
+        except (TypeError, ValueError, OverflowError, ZeroDivisionError) as wrong:
+            raise InputError(f"points: not rationals: {wrong}") from None
+        text, made = "".join(f"{number}\0" for number in numbers).encode(), ffi.new("pir_polytope **")
+        check(lib.py_polytope_of_text(text, len(numbers) // 3, made), "points")
+        return cls._of(made[0])
+
+    @property
+    def exact(self) -> "list[tuple[Fraction, Fraction, Fraction]]":
+        """The vertices in rationals."""
+        count = lib.pir_polytope_vertex_count(self._pointer)
+        return [_fractions(lib.py_polytope_vertex_text, self._pointer, v) for v in range(count)]
 
     @classmethod
     def _of(cls, pointer_: Any) -> "Polytope":
@@ -194,8 +239,7 @@ class Polytope:
         """Volume, centroid and inertia about the centroid, of density 1."""
         found = ffi.new("pir_mass *")
         check(lib.pir_polytope_mass(self._pointer, found), "mass")
-        inertia = np.array([[found.inertia[i][j] for j in range(3)] for i in range(3)])
-        return Mass(found.volume, np.array([found.centroid.x, found.centroid.y, found.centroid.z]), inertia)
+        return mass_of(found)
 
     @property
     def volume(self) -> float:

@@ -2,12 +2,14 @@
 """Solids that need not be convex: pieces, exact sums, depths."""
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, Optional, Sequence, Union
+import contextlib
+from typing import Any, Callable, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Bytes, Floats, dtype_of, fail_at, indices, number, path_of, pointer, quaternion, rows, whole
+from ._arrays import (Bytes, Floats, Indices, dtype_of, fail_at, indices, number, path_of, pointer, quaternion, rows,
+                      whole)
 from ._check import Handle, InputError, check
 from ._native import ffi, lib
 from ._pairs import pairs_of_poses
@@ -25,6 +27,21 @@ class Depths(NamedTuple):
     point_q: Floats
 
 
+class SolidContacts(NamedTuple):
+    """Contacts of solids at n poses: those of pose i are the elements ``starts[i]:starts[i + 1]`` of the others, the
+    deepest first. `normal` is a unit vector from Q to P; pieces are those of the solids' decompositions."""
+
+    starts: "npt.NDArray[np.int64]"
+    point_p: Floats
+    point_q: Floats
+    normal: Floats
+    distance: Floats
+    piece_p: Indices
+    piece_q: Indices
+    facet_q: Indices
+    id: "npt.NDArray[np.uint64]"
+
+
 def _facets_of(faces: Any) -> "tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint32]]":
     """Faces of one size as an array, or of any sizes as a list of lists, as starts and corners."""
     if isinstance(faces, np.ndarray) and faces.dtype != object:
@@ -36,6 +53,10 @@ def _facets_of(faces: Any) -> "tuple[npt.NDArray[np.uint32], npt.NDArray[np.uint
         raise InputError("faces: not a sequence of faces") from None
     starts = np.concatenate([[0], np.cumsum([len(face) for face in lists])]).astype(np.uint32)
     return starts, np.concatenate(lists) if lists else np.empty(0, np.uint32)
+
+
+def _of_facets(points: Any, starts: Any, corners: Any) -> "Solid":
+    return Solid(points, [corners[a:b] for a, b in zip(starts[:-1], starts[1:])])
 
 
 class Pieces(Handle):
@@ -85,10 +106,11 @@ class Solid:
     0.5
     """
 
-    __slots__ = ("_pointer",)
+    __slots__ = ("_pointer", "_made")
 
     def __init__(self, vertices: Any, faces: Any = None) -> None:
         made, report = ffi.new("pir_solid **"), ffi.new("pir_report *")
+        self._made: Tuple[Any, ...] = (Solid, vertices)
         if faces is None and isinstance(vertices, Polytope):
             check(lib.pir_solid_from_polytope(vertices._pointer, ffi.NULL, made), "vertices")
         else:
@@ -102,15 +124,33 @@ class Solid:
             facets.points, facets.point_count = pointer(points, "pir_vec3 *"), len(points)
             facets.starts, facets.facet_count = pointer(starts, "uint32_t *"), len(starts) - 1
             facets.corners = pointer(corners, "uint32_t *")
+            self._made = _of_facets, points.copy(), starts, corners.copy()
             check(lib.pir_solid_create(facets, ffi.NULL, report, made), "vertices or faces", report)
         self._pointer = ffi.gc(made[0], lib.pir_solid_release)
 
     @classmethod
     def read(cls, path: Any) -> "Solid":
-        report, found = ffi.new("pir_report *"), ffi.new("pir_solid **")
-        check(lib.pir_solid_read(path_of(path), ffi.NULL, report, found), f"{path}", report)
+        """The solid of an OFF, OBJ, STL or PLY file."""
+        name = path_of(path)
+        try:
+            with open(name, "rb") as file:
+                return cls.from_bytes(file.read(), name)
+        except OSError:
+            report, found = ffi.new("pir_report *"), ffi.new("pir_solid **")
+            check(lib.pir_solid_read(name, ffi.NULL, report, found), f"{path}", report)
+            raise
+
+    @classmethod
+    def from_bytes(cls, data: bytes, name: Union[str, bytes]) -> "Solid":
+        """The solid of the bytes of a file; the ending of `name` tells the format."""
+        report, found, file = ffi.new("pir_report *"), ffi.new("pir_solid **"), ffi.new("pir_file_bytes *")
+        told = name.encode() if isinstance(name, str) else name
+        kept = ffi.from_buffer(data), ffi.new("char[]", told)
+        file.bytes, file.size, file.name = kept[0], len(data), kept[1]
+        check(lib.pir_solid_read_bytes(file, ffi.NULL, report, found), "data or name", report)
         made = cls.__new__(cls)
         made._pointer = ffi.gc(found[0], lib.pir_solid_release)
+        made._made = Solid.from_bytes, bytes(data), told
         return made
 
     @classmethod
@@ -174,6 +214,14 @@ class Solid:
             raise InputError(f"other: not a Solid: {other!r}")
         return SolidPair(self, other).depth(poses_p, poses_q)
 
+    def contacts(self, other: "Solid", poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None, *,
+                 margin: float = 0.0) -> SolidContacts:
+        """Contacts of this solid, at `poses_p`, and another, at `poses_q`, up to `margin` apart, without those that
+        seams between pieces and inner walls would give."""
+        if not isinstance(other, Solid):
+            raise InputError(f"other: not a Solid: {other!r}")
+        return SolidPair(self, other).contacts(poses_p, poses_q, margin=margin)
+
     def __repr__(self) -> str:
         info = self._info()
         return f"<Solid: {info.vertices} vertices, {info.facets} facets, volume {info.volume:g}>"
@@ -184,22 +232,33 @@ class Solid:
     def __deepcopy__(self, memo: Any) -> "Solid":
         return self
 
+    def __reduce__(self) -> "Tuple[Callable[..., Solid], Tuple[Any, ...]]":
+        """By what it was made of, exactly."""
+        return self._made[0], self._made[1:]
+
 
 class SolidPair(Handle):
     """Two solids that are asked again and again: their pieces are made once."""
 
     def __init__(self, p: Union[Solid, Pieces], q: Union[Solid, Pieces]) -> None:
-        pieces: Sequence[Pieces] = [x if isinstance(x, Pieces) else x.decompose() for x in (p, q)]
+        self._pieces: Tuple[Pieces, Pieces] = (_cut(p), _cut(q))
         made, scratch = ffi.new("pir_solid_query **"), ffi.new("pir_workspace **")
-        with pieces[0]._held() as a:
-            if pieces[0] is pieces[1]:
-                check(lib.pir_solid_query_create(a, a, ffi.NULL, made), "SolidPair")
-            else:
-                with pieces[1]._held() as b:
-                    check(lib.pir_solid_query_create(a, b, ffi.NULL, made), "SolidPair")
+        with self._both() as (a, b):
+            check(lib.pir_solid_query_create(a, b, ffi.NULL, made), "SolidPair")
         super().__init__(made[0], lib.pir_solid_query_destroy)
         check(lib.pir_workspace_create(ffi.NULL, scratch), "SolidPair")
         self._workspace = ffi.gc(scratch[0], lib.pir_workspace_destroy)
+        self._contacts: Any = None
+
+    @contextlib.contextmanager
+    def _both(self) -> Iterator[Tuple[Any, Any]]:
+        """The pieces of both, this thread's for a while; they may be the same."""
+        with self._pieces[0]._held() as a:
+            if self._pieces[0] is self._pieces[1]:
+                yield a, a
+            else:
+                with self._pieces[1]._held() as b:
+                    yield a, b
 
     def depth(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None) -> Depths:
         """As of `Solid.depth`."""
@@ -215,5 +274,48 @@ class SolidPair(Handle):
         return Depths(found["state"].astype(np.uint8), found["depth"].copy(), found["normal"].copy(),
                       found["point_p"].copy(), found["point_q"].copy())
 
+    def contacts(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None, *,
+                 margin: float = 0.0) -> SolidContacts:
+        """As of `Solid.contacts`."""
+        posed, shape = pairs_of_poses(poses_p, poses_q)
+        limit, counts, made = number("margin", margin), np.zeros(len(posed), np.uint64), []
+        at, capacity = 0, 256
+        with self._held():
+            self._make_contacts()
+            while at < len(posed):
+                found = np.empty(capacity, dtype_of("pir_solid_contact"))
+                room = ffi.new("py_contact_room *", [capacity, pointer(found, "pir_solid_contact *"),
+                                                     pointer(counts[at:], "uint64_t *"), 0])
+                status = lib.py_solid_contacts(self._contacts, self._workspace, pointer(posed[at:]), len(posed) - at,
+                                               limit, room)
+                fail_at(status, "poses_p or poses_q", at + room.done)
+                made.append(found[:int(counts[at:at + room.done].sum())].copy())
+                at += room.done
+                capacity = max(min(2 * capacity, 2**16), int(counts[at]) if at < len(posed) else 0)
+        starts = np.concatenate([[0], np.cumsum(counts, dtype=np.int64)])
+        all_ = np.concatenate([np.empty(0, dtype_of("pir_solid_contact")), *made])
+        return SolidContacts(starts, *(all_[name].copy() for name in SolidContacts._fields[1:]))
+
+    def _make_contacts(self) -> None:
+        if self._contacts is None:
+            made = ffi.new("pir_solid_contacts **")
+            with self._both() as (a, b):
+                check(lib.pir_solid_contacts_create(a, b, ffi.NULL, made), "SolidPair")
+            self._contacts = ffi.gc(made[0], lib.pir_solid_contacts_destroy)
+
+    def _close(self) -> None:
+        self._contacts = None
+        super()._close()
+
+    def __enter__(self) -> "SolidPair":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.close()
+
     def __repr__(self) -> str:
         return "<SolidPair>"
+
+
+def _cut(body: Union[Solid, Pieces]) -> Pieces:
+    return body if isinstance(body, Pieces) else body.decompose()

@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Optional, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Bytes, Floats, Indices, pointer, quaternion, room, vectors
+from ._arrays import (Bytes, Floats, Indices, dtype_of, fail_at, number, pointer, quaternion, room, vector, vectors)
 from ._check import Handle, check
 from ._native import ffi, lib
-from ._polytopes import Body, Mesh, Polytope, as_polytope
+from ._pictures import svg_of
+from ._polytopes import Body, Facets, Mesh, Polytope, as_polytope
+from ._turns import TurnEvent, TurnEvents
+
+
+class Penetrations(NamedTuple):
+    """`state` 0 outside, 1 touching, 2 overlapping; moving P by depth · normal is the shortest way out."""
+
+    state: Bytes
+    depth: Floats
+    normal: Floats
+    point_p: Floats
+    point_q: Floats
 
 
 class MinkowskiSum(Handle):
@@ -37,6 +49,7 @@ class MinkowskiSum(Handle):
         super().__init__(made[0], lib.pir_sum_destroy)
         self._difference: Any = None
         self._query: Any = None
+        self._region: Any = None
 
     def rotate(self, rotation: npt.ArrayLike) -> None:
         """Brings the sum to a rotation of P, (4,) x, y, z, w of any length, or (3, 3): what changed is repaired."""
@@ -49,6 +62,17 @@ class MinkowskiSum(Handle):
         with self._held() as sum_:
             q = lib.pir_sum_rotation(sum_)
         return np.array([q.x, q.y, q.z, q.w])
+
+    # --- turning on ---
+
+    def events(self, axis: npt.ArrayLike) -> TurnEvents:
+        """The changes of the sum while P makes a full turn about `axis` from the present rotation, in order."""
+        return TurnEvents(self.p, self.q, axis, self.rotation)
+
+    def next_event(self, axis: npt.ArrayLike) -> Optional[TurnEvent]:
+        """The first of them, or None where the sum stays the same for a full turn."""
+        with self.events(axis) as events:
+            return next(events, None)
 
     # --- the pairing ---
 
@@ -94,6 +118,8 @@ class MinkowskiSum(Handle):
             made, query = ffi.new("pir_sum **"), ffi.new("pir_query **")
             check(lib.pir_sum_create(self.p._pointer, self.q._pointer, turned, options, made), "MinkowskiSum")
             difference = ffi.gc(made[0], lib.pir_sum_destroy)
+            if self._region is not None:
+                check(lib.pir_sum_set_region(difference, *self._region), "MinkowskiSum")
             check(lib.pir_query_create(difference, query), "MinkowskiSum")
             self._difference, self._query = difference, ffi.gc(query[0], lib.pir_query_destroy)
         else:
@@ -125,6 +151,48 @@ class MinkowskiSum(Handle):
                                              pointer(found, "pir_state *")), "translations")
         return found.astype(np.uint8)
 
+    def penetrations(self, translations: npt.ArrayLike) -> Penetrations:
+        """How deep P is in Q at translations, the ways out and the points; of a sum with a region by its facets."""
+        array, shape = vectors("translations", translations, 3)
+        found, done = np.empty(len(array), dtype_of("pir_query_result")), ffi.new("size_t *")
+        with self._held() as sum_:
+            status = lib.py_query_penetrations(self._asked(sum_), pointer(array), len(array),
+                                               pointer(found, "pir_query_result *"), done)
+        fail_at(status, "translations", done[0])
+        found = found.reshape(shape)
+        return Penetrations(found["state"].astype(np.uint8), np.maximum(-found["distance"], 0.0),
+                            found["normal"].copy(), found["point_p"].copy(), found["point_q"].copy())
+
+    # --- parts, and pictures that follow ---
+
+    def set_region(self, axis: npt.ArrayLike, half_angle: float) -> None:
+        """Keeps only what facets with normals within `half_angle` of `axis` need, of the sum and of the difference that
+        is asked: `penetrations` answers from these facets then, with the depth or more. It may follow every frame."""
+        along, angle = vector("axis", axis), number("half_angle", half_angle)
+        with self._held() as sum_:
+            check(lib.pir_sum_set_region(sum_, along, angle), "axis or half_angle")
+            self._region = (along, angle)
+            if self._difference is not None:
+                check(lib.pir_sum_set_region(self._difference, along, angle), "axis or half_angle")
+
+    def clear_region(self) -> None:
+        """The whole sum again."""
+        with self._held() as sum_:
+            self._region = None
+            check(lib.pir_sum_clear_region(sum_), "MinkowskiSum")
+            if self._difference is not None:
+                check(lib.pir_sum_clear_region(self._difference), "MinkowskiSum")
+
+    def statistics(self) -> Dict[str, int]:
+        """Counters of the sum's work: `updates`, `checked` certificates that expired, `repaired` pairs, and others."""
+        with self._held() as sum_:
+            found = lib.pir_sum_get_statistics(sum_)
+        return {name: int(getattr(found, name)) for name, _ in ffi.typeof("pir_sum_statistics").fields}
+
+    def live(self) -> "LiveMesh":
+        """A mesh that follows the sum: what changed is rewritten, the rest stays in its place."""
+        return LiveMesh(self)
+
     # --- Python's own ---
 
     def _close(self) -> None:
@@ -152,14 +220,16 @@ class MinkowskiSum(Handle):
         Handle.__init__(made, pointer_, lib.pir_sum_destroy)
         made.p = Polytope._of(lib.pir_polytope_retain(ffi.cast("pir_polytope *", lib.pir_sum_p(pointer_))))
         made.q = Polytope._of(lib.pir_polytope_retain(ffi.cast("pir_polytope *", lib.pir_sum_q(pointer_))))
-        made._difference = made._query = None
+        made._difference = made._query = made._region = None
         return made
 
     def __copy__(self) -> "MinkowskiSum":
         found = ffi.new("pir_sum **")
         with self._held() as sum_:
             check(lib.pir_sum_clone(sum_, ffi.NULL, found), "copy")
-        return self._of(found[0])
+        made = self._of(found[0])
+        made._region = self._region
+        return made
 
     def __deepcopy__(self, memo: Any) -> "MinkowskiSum":
         return self.__copy__()
@@ -178,8 +248,76 @@ class MinkowskiSum(Handle):
             pairs = lib.pir_sum_ee_count(sum_)
         return f"<MinkowskiSum: {self.p!r} + {self.q!r}, {pairs} pairs of edges>"
 
+    def _repr_html_(self) -> str:
+        """A picture of the sum in a notebook, as SVG that needs nothing else. Facets of P are blue, of Q orange, of
+        edges green, of several of these violet."""
+        return svg_of(self.mesh(), repr(self))
+
     def turned(self, axis: npt.ArrayLike, angle: float) -> None:
         """Brings the sum to the rotation about an axis by an angle in radians, from rest."""
         along = np.asarray(axis, float)
         half = angle / 2
         self.rotate(np.append(along / np.linalg.norm(along) * math.sin(half), math.cos(half)))
+
+
+class LiveMesh(Handle):
+    """The facets of a sum that turns, in slots: `refresh` rewrites those that changed.
+
+    >>> cube = Polytope.shape("cube")
+    >>> sum_ = MinkowskiSum(cube, cube)
+    >>> live = sum_.live()
+    >>> sum_.rotate([0, 0, 0.5, 1])
+    >>> live.refresh()
+    >>> len(live.facets.starts) - 1 == live.slots
+    True
+    """
+
+    def __init__(self, sum_: MinkowskiSum) -> None:
+        made = ffi.new("pir_live_mesh **")
+        with sum_._held() as pointer_:
+            check(lib.pir_live_mesh_create(pointer_, made), "LiveMesh")
+        self._sum = sum_
+        super().__init__(made[0], lib.pir_live_mesh_destroy)
+
+    def refresh(self) -> None:
+        """Brings the facets to the sum as it stands now."""
+        with self._held() as live, self._sum._held():
+            check(lib.pir_live_mesh_refresh(live), "LiveMesh")
+
+    @property
+    def slots(self) -> int:
+        """How many facets there is room for, empty ones included."""
+        with self._held() as live:
+            return int(lib.pir_live_mesh_facet_slots(live))
+
+    @property
+    def rewritten(self) -> Indices:
+        """The slots of facets that the last refresh rewrote or emptied."""
+        count = ffi.new("uint32_t *")
+        with self._held() as live:
+            first = lib.pir_live_mesh_rewritten(live, count)
+            made = np.empty(count[0], np.uint32)
+            if count[0]:
+                ffi.memmove(pointer(made, "char *"), first, made.nbytes)
+        return made
+
+    @property
+    def facets(self) -> Facets:
+        """Of each slot the corners, slots of vertices; an empty slot has none."""
+        with self._held() as live:
+            starts = np.empty(lib.pir_live_mesh_facet_slots(live) + 1, np.uint32)
+            lib.py_live_mesh_starts(live, pointer(starts, "uint32_t *"))
+            corners = np.empty(starts[-1], np.uint32)
+            lib.py_live_mesh_corners(live, pointer(corners, "uint32_t *"))
+        return Facets(starts, corners)
+
+    @property
+    def vertices(self) -> Floats:
+        """Of each slot of a vertex where it is at the sum's rotation."""
+        with self._held() as live, self._sum._held():
+            made = np.zeros((lib.pir_live_mesh_vertex_slots(live), 3))
+            lib.pir_live_mesh_vertices(live, pointer(made, "pir_vec3 *"))
+        return made
+
+    def __repr__(self) -> str:
+        return f"<LiveMesh: {self.slots} slots of {self._sum!r}>"

@@ -138,6 +138,13 @@ class TriMesh(Surface):
         check(lib.pir_trimesh_triangle(self._mesh, number_, corners), "number_")
         return np.array([[c.x, c.y, c.z] for c in corners.corner])
 
+    @property
+    def triangles(self) -> Floats:
+        """The corners of all triangles as given, (n, 3, 3)."""
+        corners, materials = np.empty((len(self), 3, 3)), np.empty(len(self), np.uint32)
+        lib.py_trimesh_triangles(self._mesh, pointer(corners), pointer(materials, "uint32_t *"))
+        return corners
+
     def __len__(self) -> int:
         return int(self._info().triangles)
 
@@ -150,6 +157,12 @@ class TriMesh(Surface):
 
     def __deepcopy__(self, memo: Any) -> "TriMesh":
         return self
+
+    def __reduce__(self) -> "tuple[Callable[..., TriMesh], tuple[Floats, Indices, bool]]":
+        """Vertices of one place are one in the copy, those of no triangle are left out; triangles keep numbers."""
+        corners = self.triangles
+        vertices, at = np.unique(corners.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
+        return TriMesh, (vertices, at.reshape(-1, 3).astype(np.uint32), self.two_sided)
 
 
 class MeshDistances(NamedTuple):
@@ -258,3 +271,9 @@ class HeightField(Surface):
 
     def __reduce__(self) -> Tuple[Callable[..., "HeightField"], Tuple[Floats, Tuple[float, float], bool]]:
         return HeightField, (self._heights, self._step, self._two_sided)
+
+    def __copy__(self) -> "HeightField":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "HeightField":
+        return self

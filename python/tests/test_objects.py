@@ -109,20 +109,29 @@ def made_and_dropped(count):
     poses = hovering(3)
     for i in range(count):
         cube = pirouette.Polytope(CORNERS)
-        if i % 4 == 0:
-            pirouette.Pair(cube, cube).signed_distance(poses)
-        elif i % 4 == 1:
-            pirouette.MinkowskiSum(cube, cube).mesh()
-        elif i % 4 == 2:
-            pirouette.Scene().add(cube)
-        else:
+        kind = i % 8
+        if kind == 0:
+            pirouette.Pair(cube, cube).signed_distance(poses, hessian=True)
+        elif kind == 1:
+            pirouette.MinkowskiSum(cube, cube).mesh(exact=True).exact
+        elif kind == 2:
+            pirouette.Scene().add(pirouette.Shape.compound([(pirouette.Shape.box([1, 1, 1]), [0, 0, 0, 1, 0, 0, 0])]))
+        elif kind == 3:
             pirouette.TriMesh(CORNERS, [[0, 1, 2]])
+        elif kind == 4:
+            pirouette.MinkowskiSum(cube, cube).next_event([1, 2, 3])
+        elif kind == 5:
+            pirouette.MinkowskiSum(cube, cube).live().facets
+        elif kind == 6:
+            pirouette.Solid(cube).contacts(pirouette.Solid(cube), poses)
+        else:
+            pirouette.plan(cube, cube, [3, 0, 0], [4, 0, 0])
 
 
 def test_objects_leave_nothing_behind():
-    made_and_dropped(4000)
+    made_and_dropped(2000)
     before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    made_and_dropped(20000)
+    made_and_dropped(12000)
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 2000
 
 
@@ -147,6 +156,12 @@ def depth(a: pirouette.Solid, b: pirouette.Solid) -> npt.NDArray[np.float64]:
 mesh: pirouette.Mesh = pirouette.MinkowskiSum(np.eye(3), np.eye(3)).mesh()
 faces: npt.NDArray[np.uint32] = mesh.faces
 events: pirouette.Events = pirouette.Scene().update()
+turn = pirouette.MinkowskiSum(np.eye(3), np.eye(3)).next_event([0, 0, 1])
+angle: float = turn.angle[0] if turn is not None else 0.0
+way: pirouette.Plan = pirouette.plan(pirouette.Polytope.shape("cube"), [pirouette.Polytope.shape("cube")], [0, 0, 3],
+                                     [3, 0, 0], bounds=[[-4, -4, -4], [4, 4, 4]])
+points: npt.NDArray[np.float64] = way.points
+body: int = pirouette.Scene().add(pirouette.Shape.ball(1.0), fast=1e-6)
 '''
 
 
