@@ -179,8 +179,8 @@ PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t verte
 PIR_API pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_coefficients);
 
 /**
- * As pir_pair_impact (impact.h); on a hit after the start also the quadratic that the κ of the contact is a root of, as
- * of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Else, three zeros.
+ * As pir_pair_impact (impact.h); on a hit after the start also the quadratic that the κ of the contact is a root of,
+ * as of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Else, three zeros.
  *
  * pair, workspace, input, motion  as of pir_pair_impact.
  * ret_coefficients                three initialised integers.

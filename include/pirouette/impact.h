@@ -2,10 +2,10 @@
 /**
  * First contacts, exactly: when a convex P that turns about an axis, or goes straight on, first touches a convex Q.
  *
- * A hinge, a door or a gear turns about a fixed axis through a pivot. With κ = |u|·cot(θ/2) for the angle θ about the
- * axis u, and κ = 1/λ for the fraction λ of a way, κ falls from +∞ while P moves, and each number by which the bodies
- * are apart along a facet of their difference is a quadratic in κ with rational coefficients, two edges included. The
- * first contact is therefore a root of a quadratic, and is found, isolated and told exactly.
+ * A hinge, a door or a gear turns about a fixed axis through a pivot. With κ = |u|·cot(θ/2) for the angle θ about
+ * the axis u, and κ = 1/λ for the fraction λ of a way, κ falls from +∞ while P moves, and each number by which
+ * the bodies are apart along a facet of their difference is a quadratic in κ with rational coefficients, two edges
+ * included. The first contact is therefore a root of a quadratic, and is found, isolated and told exactly.
  *
  * The search goes from one separating plane to the next. Each has the κ at which it ceases to separate, a root. There
  * another plane separates, of which that is proven at the root itself, or the bodies touch. So no contact is passed,
@@ -41,7 +41,7 @@ typedef struct pir_exact_impact {
      */
     pir_impact impact;
     double kappa[2]; /**< on a hit, doubles around κ, with no other root of the quadratic between; else infinite */
-    double degrees;  /**< of a turn: from 0 on, in the direction of motion, rounded down: before the contact, or at it */
+    double degrees; /**< of a turn: from 0 on, in the direction of motion, rounded down: before the contact, or at it */
 } pir_exact_impact;
 
 /**
@@ -60,8 +60,8 @@ typedef struct pir_exact_impact {
  * doubles do not tell signs, exact arithmetic; at a contact that is no crossing and no vertex within a facet, O(e f)
  * for e and f edges.
  *
- * Errors: those of a query of a pair; PIR_ERR_NOT_FINITE; PIR_ERR_ARGUMENT for dimensions, an axis of length 0, an angle
- * out of range, or turn and way together.
+ * Errors: those of a query of a pair; PIR_ERR_NOT_FINITE; PIR_ERR_ARGUMENT for dimensions, an axis of length 0, an
+ * angle out of range, or turn and way together; PIR_ERR_LIMIT for an axis whose greatest component is beyond 2^±400.
  */
 PIR_API pir_status pir_pair_impact(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                    const pir_exact_motion *motion, pir_exact_impact *ret_impact);

@@ -76,8 +76,7 @@ pir_vec3 pir_course_direction(const pir_course *course, pir_vec3 x, double phi) 
 }
 
 pir_vec3 pir_course_point(const pir_course *course, pir_vec3 x, double phi) {
-    return course->turns ? pir_course_direction(course, x, phi)
-                         : pir_vec_add(x, pir_vec_scale(course->way, tan(phi)));
+    return course->turns ? pir_course_direction(course, x, phi) : pir_vec_add(x, pir_vec_scale(course->way, tan(phi)));
 }
 
 /* Adds `by`·(y·R x), and for a point x of P that goes along, `rate`. */
@@ -100,18 +99,18 @@ static void add_rest(const pir_course *course, double c[3], double h, double rat
         c[1] += rate;
 }
 
-static void form_of_plane(const pir_course *course, const pir_condition *on, double c[3]) {
+pir_plane_rows pir_course_rows(const pir_course *course, const pir_condition *on) {
     const bool of_q = on->kind == PIR_Q_PLANE || on->kind == PIR_Q_SIDE;
     const bool is_side = on->kind == PIR_Q_SIDE || on->kind == PIR_P_SIDE;
     const int own = of_q; /* the body that has the plane */
     const pir_polytope *body = course->body[own];
-    const uint32_t face = of_q ? on->q : on->p, v = of_q ? on->p : on->q;
-    pir_vec3 n;
+    const uint32_t face = of_q ? on->q : on->p;
     uint32_t base;
+    pir_vec3 n;
     if (is_side) {
+        // negative within: outwards is along the halfedge × the normal
         const uint32_t e = body->edge[face];
         n = pir_vec_cross(course->edge[own][e], course->normal[own][body->left[face]]);
-        // negative within: outwards is along the halfedge × the normal
         n = pir_vec_scale(n, body->edge_half[e] == face ? 1 : -1);
         base = body->origin[face];
     } else {
@@ -119,11 +118,17 @@ static void form_of_plane(const pir_course *course, const pir_condition *on, dou
         base = body->origin[body->loop[body->loop_start[face]]];
     }
     const double h = -pir_vec_dot(n, course->point[own][base]), along = pir_vec_dot(n, course->way);
-    if (of_q)
-        add_product(course, c, course->point[0][v], n, 1);
-    else
-        add_product(course, c, n, course->point[1][v], 1);
-    add_rest(course, c, h, of_q ? along : -along);
+    pir_plane_rows rows = {.row = {n}, .h = {h}, .bound = PIR_COURSE_BOUND * course->size};
+    rows.point = course->point[!own];
+    if (course->turns) {
+        const pir_vec3 u = course->unit;
+        rows.row[1] = pir_vec_scale(pir_vec_cross(n, u), of_q ? 2 : -2);
+        rows.row[2] = pir_vec_sub(pir_vec_scale(u, 2 * pir_vec_dot(u, n)), n);
+        rows.h[2] = h;
+    } else {
+        rows.h[1] = of_q ? along : -along;
+    }
+    return rows;
 }
 
 static void form_of_edges(const pir_course *course, const pir_condition *on, double c[3]) {
@@ -148,10 +153,11 @@ static void form_of_edges(const pir_course *course, const pir_condition *on, dou
 }
 
 pir_course_form pir_course_form_of(const pir_course *course, const pir_condition *on) {
+    if (on->kind != PIR_CROSSING && on->kind != PIR_EDGES) {
+        const pir_plane_rows rows = pir_course_rows(course, on);
+        return pir_rows_form(&rows, on->kind == PIR_Q_PLANE || on->kind == PIR_Q_SIDE ? on->p : on->q);
+    }
     pir_course_form form = {{0, 0, 0}, PIR_COURSE_BOUND * (on->kind == PIR_CROSSING ? 1 : course->size)};
-    if (on->kind == PIR_CROSSING || on->kind == PIR_EDGES)
-        form_of_edges(course, on, form.c);
-    else
-        form_of_plane(course, on, form.c);
+    form_of_edges(course, on, form.c);
     return form;
 }

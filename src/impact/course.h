@@ -2,18 +2,21 @@
 /*
  * Two bodies, one of which turns about an axis or goes along a way, and the conditions that hold on its course.
  *
- * κ falls from +∞: of a turn by θ it is |u|·cot(θ/2), of a way it is 1/λ at the fraction λ. Points are relative to the
- * pivot. A point x of P is then at (κ² x + 2κ (u × x) + 2u (u·x) − |u|² x)/(κ² + |u|²), or at x + way/κ.
+ * κ falls from +∞: of a turn by θ it is |u|·cot(θ/2), of a way it is 1/λ at the fraction λ. Points are relative
+ * to the pivot. A point x of P is then at (κ² x + 2κ (u × x) + 2u (u·x) − |u|² x)/(κ² + |u|²), or at
+ * x + way/κ.
  *
- * A condition is a number that is negative while it holds. All are quadratics in κ, after multiplication by κ² + |u|²
- * or κ². For planes this follows from the above. Of two edges, with directions e and f through a and b, the triple
- * product (Re × f)·(Ra − b) is f·R(a × e) − (f × b)·... = f·R(a × e) − Re·(f × b): the edges' Plücker coordinates, on
- * which a rotation acts linearly. So no contact about an axis has a degree above 2.
+ * A condition is a number that is negative while it holds. All are quadratics in κ, after multiplication by
+ * κ² + |u|² or κ². For planes this follows from the above. Of two edges, with directions e and f through a and b,
+ * the triple product (Re × f)·(Ra − b) is f·R(a × e) − Re·(f × b): the edges' Plücker coordinates, on which
+ * a rotation acts linearly. So no contact about an axis has a degree above 2.
  *
- * In doubles u has length 1 and κ stands for (σ, τ) of length 1 with σ/τ = cot(θ/2), or κ itself for a way; φ in
- * [0, π) is its angle. Error of a coefficient, with v = 2^-53: a unit vector is turned within 45v, a point is placed
- * within 45v + 3v of the sizes of what it is made of, the axis is within 4v; products as of motion/turning.h stay below
- * 512v. Conditions on edges have two such terms; PIR_COURSE_BOUND is sixteen times as much as one.
+ * In doubles u has length 1 and κ stands for (σ, τ) of length 1 with σ/τ = cot(θ/2), or κ itself for a way; φ
+ * in [0, π) is its angle. Error of a coefficient, with v = 2^-53 and the size of bodies, poses, pivot and way together
+ * as 1: a unit vector is turned within 45v, a point is placed within 48v, the axis is within 4v. The product of two is
+ * off by 105v then, with the cross product and its rounding by 230v, with the reflection and its own by 290v, and the
+ * constant of a plane, another product, is off by 105v. Together below 400v. Conditions on edges have two such terms:
+ * below 800v, PIR_COURSE_BOUND is 1024v.
  */
 #ifndef PIR_IMPACT_COURSE_H
 #define PIR_IMPACT_COURSE_H
@@ -24,7 +27,7 @@
 #include "motion/quadratic.h"
 #include "polytope/polytope.h"
 
-#define PIR_COURSE_BOUND 0x1p-40
+#define PIR_COURSE_BOUND 0x1p-43
 
 typedef enum pir_condition_kind {
     PIR_Q_PLANE,  /* vertex of P outside of a facet of Q */
@@ -37,9 +40,9 @@ typedef enum pir_condition_kind {
 
 typedef struct pir_condition {
     pir_condition_kind kind;
-    uint32_t p, q;   /* the two features; of PIR_CROSSING and PIR_EDGES edges */
-    int8_t side;     /* of edges: 1 where Re × f points from Q to P, else −1 */
-    uint8_t corner;  /* of PIR_CROSSING: facet left and right of P's edge, left and right of Q's */
+    uint32_t p, q;  /* the two features; of PIR_CROSSING and PIR_EDGES edges */
+    int8_t side;    /* of edges: 1 where Re × f points from Q to P, else −1 */
+    uint8_t corner; /* of PIR_CROSSING: facet left and right of P's edge, left and right of Q's */
 } pir_condition;
 
 /* c[0]·σ² + c[1]·στ + c[2]·τ², each within `bound`. */
@@ -81,6 +84,22 @@ void pir_course_finish(pir_course *course);
 /* Where a point of P, and a direction of P, is at a φ. */
 pir_vec3 pir_course_point(const pir_course *course, pir_vec3 x, double phi);
 pir_vec3 pir_course_direction(const pir_course *course, pir_vec3 x, double phi);
+
+/* Forms of all conditions of a facet's plane: a coefficient is its row times the other body's vertex, and h. */
+typedef struct pir_plane_rows {
+    pir_vec3 row[3];
+    double h[3], bound;
+    const pir_vec3 *point; /* of the other body */
+} pir_plane_rows;
+
+pir_plane_rows pir_course_rows(const pir_course *course, const pir_condition *plane);
+
+static inline pir_course_form pir_rows_form(const pir_plane_rows *rows, uint32_t v) {
+    const pir_vec3 x = rows->point[v];
+    return (pir_course_form){{pir_vec_dot(rows->row[0], x) + rows->h[0], pir_vec_dot(rows->row[1], x) + rows->h[1],
+                              pir_vec_dot(rows->row[2], x) + rows->h[2]},
+                             rows->bound};
+}
 
 /* The form of a condition. */
 pir_course_form pir_course_form_of(const pir_course *course, const pir_condition *condition);

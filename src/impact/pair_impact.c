@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first contact of a pair: from separating plane to separating plane, each proven at the κ where the last one ends.
+ * The first contact of a pair: from separating plane to separating plane, each proven at the κ where the last one
+ * ends.
  *
- * At such a κ the bodies are apart or they touch, for they were apart at all κ above it. They are apart exactly when a
- * facet of their difference separates strictly. So a search among all facets decides where quicker ways do not.
+ * At such a κ the bodies are apart or they touch, for they were apart at all κ above it. They are apart exactly when
+ * a facet of their difference separates strictly. So a search among all facets decides where quicker ways do not.
  */
 #include "impact/pair_impact.h"
 
 #include <pirouette/pose.h>
 
-#include "impact/candidates.h"
+#include "impact/planes.h"
 #include "pair/pair.h"
 
 #define DEGREE 57.29577951308232
@@ -74,8 +75,8 @@ static bool is_apart(impact_job *job) {
     if (search->status != PIR_OK)
         return false;
     pir_condition plane;
-    const bool found = plane_by_query(job, &plane) ||
-                       (search->status == PIR_OK && pir_candidates_any(search, PIR_SIGN_NOW, &plane));
+    const bool found =
+        plane_by_query(job, &plane) || (search->status == PIR_OK && pir_candidates_any(search, PIR_SIGN_NOW, &plane));
     if (found)
         job->plane = plane;
     return found;
@@ -96,7 +97,7 @@ static pir_cast_outcome go_on(impact_job *job) {
     return PIR_CAST_MISS;
 }
 
-/* What bodies that touch at the start do next. */
+/* The outcome for bodies that touch at the start. */
 static pir_cast_outcome from_contact(impact_job *job) {
     pir_condition plane;
     if (pir_candidates_any(&job->search, PIR_SIGN_SOON, &plane) || pir_candidates_rest(&job->search))
@@ -253,6 +254,7 @@ pir_status pir_pair_impact_run(pir_pair *pair, pir_workspace *workspace, const p
     if ((status = pir_course_init(course, body, pose)) != PIR_OK)
         return status;
     set_end(&job.search, motion);
+    pir_search_go_to(&job.search, (pir_moment){.kind = PIR_MOMENT_FIRST});
     status = run(&job, &impact);
     const bool after_start = impact.impact.outcome == PIR_CAST_HIT && job.search.planes > 0;
     if (status == PIR_OK && ret_coefficients != NULL) {

@@ -2,13 +2,14 @@
 /*
  * Signs at roots, and first roots.
  *
- * A form is A + B cos 2φ + C sin 2φ with A = (c0 + c2)/2, B = (c0 − c2)/2, C = c1/2, of amplitude R = √(B² + C²). Its
- * exit root is where it turns positive, at 2φ = atan2(C, B) − acos(−A/R) with the slope 2√(R² − A²) in φ. With
- * coefficients off by ε the root is off by less than δ = 16ε/slope where 2Rδ² is below ε: within δ the form changes by
- * 16ε up to ε, which is more than the 3ε by which forms are off and what rounding adds, each below ε.
+ * A form is A + B cos 2φ + C sin 2φ with A = (c0 + c2)/2, B = (c0 − c2)/2, C = c1/2, of amplitude R = √(B² +
+ * C²). Its exit root is where it turns positive, at 2φ = atan2(C, B) − acos(−A/R) with the slope 2√(R² −
+ * A²) in φ. With coefficients off by ε values are off by 1.5ε, for σ² + |στ| + τ² is at most that, and by
+ * ε/8 of rounding. The root is within δ = 4ε/slope where 2Rδ² is below ε: a form changes by 4ε − ε at least
+ * within δ.
  *
- * A form is negative on an arc from a to b below π when it is at both ends and, with the polar form g(a, b), −g(a, b)
- * + √(g(a)·g(b)) > 0.
+ * A form is negative on an arc from a to b below π when it is at both ends and, with the polar form g(a, b),
+ * −g(a, b) + √(g(a)·g(b)) > 0.
  */
 #include "impact/search.h"
 
@@ -29,11 +30,15 @@ static double size_of(const pir_course_form *form) {
 
 /* --- signs --- */
 
+int pir_search_form_sign(const pir_impact_search *search, const pir_course_form *form) {
+    const double value = value_at(form, search->sigma, search->tau);
+    const double error = 3 * form->bound + 4 * size_of(form) * (search->now.slack + ANGLE_ERROR);
+    return value > error ? 1 : value < -error ? -1 : 2;
+}
+
 int pir_search_filter(const pir_impact_search *search, const pir_condition *on) {
     const pir_course_form form = pir_course_form_of(&search->course, on);
-    const double value = value_at(&form, cos(search->now.phi), sin(search->now.phi));
-    const double error = 3 * form.bound + 4 * size_of(&form) * (search->now.slack + ANGLE_ERROR);
-    return value > error ? 1 : value < -error ? -1 : 2;
+    return pir_search_form_sign(search, &form);
 }
 
 static bool make_integers(pir_impact_search *search) {
@@ -88,22 +93,21 @@ pir_condition pir_plane_condition(const pir_condition *plane, uint32_t i) {
 
 /* --- exits --- */
 
-/* Whether a form is surely negative from now to φ. */
-static bool stays_negative(const pir_impact_search *search, const pir_course_form *form, double phi) {
-    const double start = search->now.phi;
-    if (phi - start > 3)
+/* Whether a form is surely negative from now to an angle, at (x, y). */
+static bool stays_negative(const pir_impact_search *search, const pir_course_form *form, double phi, double x,
+                           double y) {
+    if (phi - search->now.phi > 3)
         return false;
     const double error = 3 * form->bound + 4 * size_of(form) * (search->now.slack + ANGLE_ERROR);
-    const double s = cos(start), t = sin(start), x = cos(phi), y = sin(phi);
+    const double s = search->sigma, t = search->tau;
     const double a = -value_at(form, s, t) - error, b = -value_at(form, x, y) - error;
     if (!(a > 0 && b > 0))
         return false;
-    const double polar =
-        -(form->c[0] * s * x + 0.5 * form->c[1] * (s * y + t * x) + form->c[2] * t * y) - error;
+    const double polar = -(form->c[0] * s * x + 0.5 * form->c[1] * (s * y + t * x) + form->c[2] * t * y) - error;
     return polar > 0 || polar + sqrt(a * b) * (1 - 0x1p-50) > 0;
 }
 
-/* 1 and the exit root where there surely is one after now, 0 where there surely is none, −1 where doubles cannot tell. */
+/* 1 and the exit root where there surely is one after now, 0 where surely none, −1 where doubles cannot tell. */
 static int exit_by_filter(const pir_impact_search *search, const pir_course_form *form, pir_moment *moment) {
     const double a = 0.5 * (form->c[0] + form->c[2]), b = 0.5 * (form->c[0] - form->c[2]), c = 0.5 * form->c[1];
     const double r = sqrt(b * b + c * c), d = (r - a) * (r + a);
@@ -111,7 +115,7 @@ static int exit_by_filter(const pir_impact_search *search, const pir_course_form
         return 0;
     if (!(d > 0))
         return -1;
-    const double slope = 2 * sqrt(d), slack = 16 * form->bound / slope + ANGLE_ERROR;
+    const double slope = 2 * sqrt(d), slack = 4 * form->bound / slope + ANGLE_ERROR;
     if (!(2 * r * slack * slack < form->bound))
         return -1;
     double phi = 0.5 * (atan2(c, b) - acos(fmin(1, fmax(-1, -a / r))));
@@ -178,32 +182,49 @@ static void exit_exactly(pir_impact_search *search, const pir_moment *at, pir_mo
     }
 }
 
+/* Sets the best so far to a condition's exit root where that comes before it. */
+static void take_exit(pir_impact_search *search, const pir_course_form *form, const pir_condition *on,
+                      pir_moment *best) {
+    pir_moment at = {.kind = PIR_MOMENT_ROOT, .root = *on};
+    const int found = exit_by_filter(search, form, &at);
+    if (found == 0 || (found == 1 && at.phi - at.slack > best->phi + best->slack))
+        return;
+    if (found == 1 && at.phi + at.slack < best->phi - best->slack)
+        *best = at;
+    else
+        exit_exactly(search, &at, best);
+}
+
 pir_moment pir_search_exit(pir_impact_search *search, const pir_condition *plane) {
     pir_moment best = search->end;
     const uint32_t count = pir_plane_count(search, plane);
+    const bool is_facet = plane->kind != PIR_EDGES;
+    const pir_plane_rows rows = is_facet ? pir_course_rows(&search->course, plane) : (pir_plane_rows){0};
+    double until = -1, x = 0, y = 0;
     for (uint32_t i = 0; i < count; i++) {
-        pir_moment at = {.kind = PIR_MOMENT_ROOT, .root = pir_plane_condition(plane, i)};
-        const pir_course_form form = pir_course_form_of(&search->course, &at.root);
-        if (stays_negative(search, &form, fmin(PI, best.phi + best.slack)))
-            continue;
-        const int found = exit_by_filter(search, &form, &at);
-        if (found == 0 || (found == 1 && at.phi - at.slack > best.phi + best.slack))
-            continue;
-        if (found == 1 && at.phi + at.slack < best.phi - best.slack)
-            best = at;
-        else
-            exit_exactly(search, &at, &best);
+        const double phi = fmin(PI, best.phi + best.slack);
+        if (phi != until) {
+            until = phi;
+            x = cos(phi);
+            y = sin(phi);
+        }
+        const pir_condition on = pir_plane_condition(plane, i);
+        const pir_course_form form = is_facet ? pir_rows_form(&rows, i) : pir_course_form_of(&search->course, &on);
+        if (!stays_negative(search, &form, phi, x, y))
+            take_exit(search, &form, &on, &best);
     }
     return best;
 }
 
 void pir_search_go_to(pir_impact_search *search, pir_moment moment) {
     search->now = moment;
+    search->sigma = cos(moment.phi);
+    search->tau = sin(moment.phi);
     search->has_root = false;
 }
 
 void pir_search_refine(pir_impact_search *search) {
-    if (search->now.slack <= 0x1p-40 || !make_integers(search))
+    if (search->now.slack <= 0x1p-33 || !make_integers(search))
         return;
     const pir_quadratic root = root_of_now(search);
     search->now.phi = phi_of(&search->course, &root, &search->course.exact.scratch);

@@ -22,8 +22,9 @@ typedef struct pir_moment {
 typedef struct pir_impact_search {
     pir_course course;
     pir_moment now, end;
-    double end_kappa; /* of the end, −∞ for a full turn */
-    bool has_root;    /* the integers `root` are now's */
+    double sigma, tau; /* of now */
+    double end_kappa;  /* of the end, −∞ for a full turn */
+    bool has_root;     /* the integers `root` are now's */
     pir_status status;
     uint32_t planes;
 } pir_impact_search;
@@ -33,6 +34,7 @@ typedef enum pir_sign_when { PIR_SIGN_NOW, PIR_SIGN_SOON } pir_sign_when;
 
 /* The sign of a condition; 2 where doubles alone do not tell. Failures are kept in `status`; the sign is then 1. */
 int pir_search_filter(const pir_impact_search *search, const pir_condition *on);
+int pir_search_form_sign(const pir_impact_search *search, const pir_course_form *form);
 int pir_search_sign(pir_impact_search *search, const pir_condition *on, pir_sign_when when);
 
 /* How many conditions a plane has, and one of them; those of edges that are no slacks come first. */
@@ -44,7 +46,7 @@ pir_moment pir_search_exit(pir_impact_search *search, const pir_condition *plane
 
 void pir_search_go_to(pir_impact_search *search, pir_moment moment);
 
-/* Makes the slack of now, a root, at most 2^-40. */
+/* Makes the slack of now, a root, at most 2^-33. */
 void pir_search_refine(pir_impact_search *search);
 
 /* Doubles around now's κ, a root. */

@@ -16,6 +16,7 @@
 #include <pirouette/pose.h>
 
 #include "support/bodies.h"
+#include "support/memory.h"
 
 #define PI     3.14159265358979323846
 #define DEGREE (180 / PI)
@@ -29,9 +30,7 @@ typedef struct hinge {
     bool aligned;
 } hinge;
 
-static struct {
-    uint32_t hits, misses, receding, inside, from_start, grazes, roots;
-} seen;
+static struct { uint32_t hits, misses, receding, inside, from_start, grazes, roots; } seen;
 
 /* --- cases --- */
 
@@ -138,12 +137,17 @@ static void make_hinge(hinge *h, test_random *random) {
         *t = (pir_vec3){t->x * 2 * size, t->y * 2 * size, t->z * 2 * size};
     }
     static const pir_vec3 even[] = {{0, 0, 1}, {1, 0, 0}, {0, -2, 0}, {1, 1, 1}, {1, -1, 0}};
-    h->motion = (pir_exact_motion){.pivot = grid_point(random, 3),
-                                   .axis = h->aligned ? even[test_random_below(random, 5)]
-                                                      : test_random_direction(random),
-                                   .degrees = test_random_between(random, -4, 4) * 90};
+    h->motion =
+        (pir_exact_motion){.pivot = grid_point(random, 3),
+                           .axis = h->aligned ? even[test_random_below(random, 5)] : test_random_direction(random),
+                           .degrees = test_random_between(random, -4, 4) * 90};
     if (!h->aligned)
         h->motion.degrees = 360 * test_random_unit(random);
+    // half of the time the turn leads onto Q
+    if (test_random_below(random, 2) == 0) {
+        const pir_vec3 t = h->input.pose_p.translation, off = grid_point(random, 1);
+        h->motion.pivot = (pir_vec3){0.5 * t.x + 0.25 * off.x, 0.5 * t.y + 0.25 * off.y, 0.5 * t.z + 0.25 * off.z};
+    }
     if (h->motion.degrees == 0)
         h->motion.degrees = 360;
     h->placed[0] = place(h->p, h->input.pose_p, h->motion.pivot);
@@ -243,8 +247,8 @@ static void add_edges(const hinge *h, roots *all) {
             double value[3];
             for (int k = 0; k < 3; k++) {
                 const pir_vec3 x = turned(h, p, a[0], true, k), y = turned(h, q, b[0], false, k);
-                value[k] = triple(minus(turned(h, p, a[1], true, k), x), minus(turned(h, q, b[1], false, k), y),
-                                  minus(x, y));
+                value[k] =
+                    triple(minus(turned(h, p, a[1], true, k), x), minus(turned(h, q, b[1], false, k), y), minus(x, y));
             }
             add_roots(all, value);
         }
@@ -304,16 +308,14 @@ static void expect_contact(const hinge *h, const pir_exact_impact *impact, mpz_t
     mpz_submul(d, c[0], c[2]);
     mpz_submul(d, c[0], c[2]);
     mpz_submul(d, c[0], c[2]);
-    double root = mpz_sgn(c[0]) == 0 ? -mpz_get_d(c[2]) / mpz_get_d(c[1])
-                                     : -mpz_get_d(c[1]) / (2 * mpz_get_d(c[0]));
+    double root = mpz_sgn(c[0]) == 0 ? -mpz_get_d(c[2]) / mpz_get_d(c[1]) : -mpz_get_d(c[1]) / (2 * mpz_get_d(c[0]));
     const bool rational = mpz_sgn(c[0]) == 0 || mpz_sgn(d) == 0;
     if (!rational)
         root = 0.5 * (low + high);
     mpz_clear(d);
     pir_pair_input input = pir_pair_input_default();
     const double sign = h->motion.degrees < 0 ? -1 : 1;
-    input.pose_p.rotation =
-        (pir_quat){sign * h->motion.axis.x, sign * h->motion.axis.y, sign * h->motion.axis.z, root};
+    input.pose_p.rotation = (pir_quat){sign * h->motion.axis.x, sign * h->motion.axis.y, sign * h->motion.axis.z, root};
     pir_query_result result;
     assert_int_equal(pir_pair_signed_distance(h->pair_placed, h->workspace, &input, &result), PIR_OK);
     expect(fabs(result.distance) < 1e-9, "case %llu: no contact, %g apart", (unsigned long long)number,
@@ -419,11 +421,142 @@ static void ways_are_those_of_casts(void **state) {
         check_way(i);
 }
 
+/* --- by hand --- */
+
+static pir_pair_input shifted(double x, double y, double z) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p.translation = (pir_vec3){x, y, z};
+    return input;
+}
+
+static pir_exact_impact ask(pir_polytope *p, pir_polytope *q, pir_pair_input input, pir_exact_motion motion,
+                            pir_status expected) {
+    pir_pair *pair;
+    pir_workspace *workspace;
+    pir_exact_impact impact = {.degrees = -1};
+    assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_impact(pair, workspace, &input, &motion, &impact), expected);
+    if (expected != PIR_OK)
+        assert_true(impact.degrees == -1);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    return impact;
+}
+
+/* A bar along x turns about the origin until its lower side meets, or just passes, the corner of a box at (0, h). */
+static void contacts_known_by_hand(void **state) {
+    (void)state;
+    pir_polytope *bar = test_box(4, 1, 1), *box = test_box_at(1, 1, 1, (pir_vec3){0, 6, 0});
+    const pir_vec3 z = {0, 0, 1};
+    // the bar's end, (4, 1), reaches the height of the box's lower side, 5, only where x is below 0: no contact
+    pir_exact_impact impact = ask(bar, box, shifted(0, 0, 0), (pir_exact_motion){{0, 0, 0}, z, 360, {0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
+    assert_true(impact.degrees == 360 && impact.impact.time == 1);
+    // an upright bar whose end turns about the box's middle line touches at a quarter turn, face on face
+    impact = ask(bar, box, shifted(5, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
+    // (9, 1) and (9, 3) turn about (1, 1); the corner (9, 1) is never nearer than 8, and the side of y = 3 meets (1, 5)
+    assert_true(impact.degrees < 90 && impact.degrees > 29.999);
+    pir_polytope *cube = test_box(1, 1, 1);
+    // a cube turns by a quarter onto another: face meets face at the end exactly
+    impact = ask(cube, cube, shifted(2, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_RECEDING);
+    impact = ask(cube, cube, shifted(2, 3, 0), (pir_exact_motion){{1, 2, 0}, z, 90, {0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
+    // about its own corner (1, 1) the lower side comes down on the upper side of the other cube after half a turn
+    impact = ask(cube, cube, shifted(3, 2, 0), (pir_exact_motion){{2, 1, 0}, z, -90, {0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
+    impact = ask(cube, cube, shifted(0, 5, 0), (pir_exact_motion){.way = {0, -3, 0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
+    assert_true(impact.impact.time <= 1 && impact.impact.time > 1 - 1e-9 && impact.impact.normal.y == 1);
+    impact = ask(cube, cube, shifted(0, 5, 0), (pir_exact_motion){.way = {0, -2.9999999999999996, 0}}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
+    impact = ask(cube, cube, shifted(0, 5, 0), (pir_exact_motion){.degrees = 0}, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_AT_REST);
+    pir_polytope_release(cube);
+    pir_polytope_release(bar);
+    pir_polytope_release(box);
+}
+
+/* A cube about an edge of its own that is 1 from the table lies down on it with that side after a quarter turn. */
+static void a_lid_closes_at_a_quarter_turn(void **state) {
+    (void)state;
+    pir_polytope *lid = test_box_at(2, 0.25, 2, (pir_vec3){0, 0.25, 0}),
+                 *box = test_box_at(2, 1, 2, (pir_vec3){2, -1, 0});
+    // upright, its lower side along y from the hinge at the origin, it falls towards +x
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = (pir_pose){.translation = {0, 2.5, 0}, .rotation = {0, 0, 1, 1}};
+    const pir_exact_motion motion = {{0, 0.5, 0}, {0, 0, 1}, -120, {0}};
+    pir_exact_impact impact = ask(lid, box, input, motion, PIR_OK);
+    assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
+    assert_true(impact.degrees <= 90 + 1e-9);
+    expect(impact.impact.normal.y > 0.99 || impact.degrees < 90 - 1e-9, "at %g degrees, normal %g", impact.degrees,
+           impact.impact.normal.y);
+    pir_polytope_release(lid);
+    pir_polytope_release(box);
+}
+
+static void memory_that_fails_at_any_request_is_told(void **state) {
+    (void)state;
+    pir_polytope *p = test_box(1, 1, 1), *q = test_box(1, 2, 1);
+    for (uint64_t at = 1, done = 0; !done; at++) {
+        test_memory memory = {.fail_at = at};
+        const pir_allocator allocator = test_allocator(&memory);
+        pir_pair_options options = pir_pair_options_default();
+        options.allocator = &allocator;
+        pir_pair *pair = NULL;
+        pir_workspace *workspace;
+        assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+        pir_status status = pir_pair_create(p, q, &options, &pair);
+        pir_exact_impact impact = {.degrees = -1};
+        const pir_pair_input input = shifted(3, 0, 0);
+        const pir_exact_motion motion = {{1.5, 0, 0}, {0, 0, 1}, 180, {0}};
+        if (status == PIR_OK)
+            status = pir_pair_impact(pair, workspace, &input, &motion, &impact);
+        done = memory.requests < at;
+        assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && !done && impact.degrees == -1));
+        pir_pair_destroy(pair);
+        pir_workspace_destroy(workspace);
+        expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "request %llu", (unsigned long long)at);
+    }
+    pir_polytope_release(p);
+    pir_polytope_release(q);
+}
+
+static void bad_input_is_refused(void **state) {
+    (void)state;
+    pir_polytope *cube = test_box(1, 1, 1), *flat = test_box(1, 1, 0);
+    const pir_vec3 z = {0, 0, 1};
+    const pir_pair_input far = shifted(5, 0, 0);
+    ask(flat, flat, far, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0}, z, 361, {0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0}, z, 90, {1, 0, 0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0}, {0, 0, 0}, 90, {0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0}, z, NAN, {0}}, PIR_ERR_NOT_FINITE);
+    ask(cube, cube, far, (pir_exact_motion){{INFINITY, 0, 0}, z, 90, {0}}, PIR_ERR_NOT_FINITE);
+    ask(cube, cube, far, (pir_exact_motion){{0}, {0, 0, 1e200}, 90, {0}}, PIR_ERR_LIMIT);
+    pir_pair_input turned = far;
+    turned.pose_q.rotation = (pir_quat){0, 0, 0, 0};
+    ask(cube, cube, turned, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_ZERO_QUATERNION);
+    turned = far;
+    turned.pose_p.translation.x = NAN;
+    ask(cube, cube, turned, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_NOT_FINITE);
+    pir_exact_impact impact;
+    assert_int_equal(pir_pair_impact(NULL, NULL, NULL, NULL, &impact), PIR_ERR_ARGUMENT);
+    pir_polytope_release(cube);
+    pir_polytope_release(flat);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hinges_are_neither_early_nor_late),
         cmocka_unit_test(ways_are_those_of_casts),
+        cmocka_unit_test(contacts_known_by_hand),
+        cmocka_unit_test(a_lid_closes_at_a_quarter_turn),
+        cmocka_unit_test(memory_that_fails_at_any_request_is_told),
+        cmocka_unit_test(bad_input_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* See candidates.h. */
-#include "impact/candidates.h"
+/* See planes.h. */
+#include "impact/planes.h"
 
 /* --- around an answer, in doubles --- */
 
@@ -11,32 +11,25 @@ static uint32_t vertex_of(const pir_polytope *body, pir_feature feature) {
                                                          : body->loop[body->loop_start[feature.index]]];
 }
 
-/* How far a plane parts the bodies, or a bound on that which is not above `least`. */
-static double gap_of(const pir_impact_search *search, const pir_condition *plane, double least) {
-    const double s = cos(search->now.phi), t = sin(search->now.phi);
-    double gap = INFINITY;
-    for (uint32_t i = 0; i < pir_plane_count(search, plane) && gap > least; i++) {
-        const pir_condition on = pir_plane_condition(plane, i);
-        const pir_course_form form = pir_course_form_of(&search->course, &on);
-        gap = fmin(gap, -(form.c[0] * s * s + form.c[1] * s * t + form.c[2] * t * t));
-    }
-    return gap;
-}
-
 typedef struct best_plane {
     pir_condition plane;
     double gap;
 } best_plane;
 
-/* `first` is the vertex that is tried before all others. */
+/* A facet's plane, of which the vertex near the other body is tried before all others. */
 static void try_facet(const pir_impact_search *search, pir_condition_kind kind, uint32_t p, uint32_t q,
                       best_plane *best) {
     const pir_condition plane = {.kind = kind, .p = p, .q = q};
-    const pir_course_form form = pir_course_form_of(&search->course, &plane);
-    const double s = cos(search->now.phi), t = sin(search->now.phi);
-    if (-(form.c[0] * s * s + form.c[1] * s * t + form.c[2] * t * t) <= best->gap)
-        return;
-    const double gap = gap_of(search, &plane, best->gap);
+    const pir_plane_rows rows = pir_course_rows(&search->course, &plane);
+    const double ss = search->sigma * search->sigma, st = search->sigma * search->tau, tt = search->tau * search->tau;
+    // the distance is −row·x − h of one row at this moment
+    const pir_vec3 row = pir_vec_add(pir_vec_add(pir_vec_scale(rows.row[0], -ss), pir_vec_scale(rows.row[1], -st)),
+                                     pir_vec_scale(rows.row[2], -tt));
+    const double h = -(rows.h[0] * ss + rows.h[1] * st + rows.h[2] * tt);
+    double gap = pir_vec_dot(row, rows.point[kind == PIR_Q_PLANE ? p : q]) + h;
+    const uint32_t count = pir_plane_count(search, &plane);
+    for (uint32_t i = 0; i < count && gap > best->gap; i++)
+        gap = pir_lesser(gap, pir_vec_dot(row, rows.point[i]) + h);
     if (gap > best->gap)
         *best = (best_plane){plane, gap};
 }
@@ -95,13 +88,19 @@ bool pir_candidates_near(const pir_impact_search *search, const pir_witness *wit
 
 bool pir_parts_strictly(pir_impact_search *search, const pir_condition *plane, pir_sign_when when) {
     const uint32_t count = pir_plane_count(search, plane);
-    // most planes that do not separate are found out by doubles
+    const bool is_facet = plane->kind != PIR_EDGES;
+    const pir_plane_rows rows = is_facet ? pir_course_rows(&search->course, plane) : (pir_plane_rows){0};
+    // most planes are decided by doubles
+    bool all = true;
     for (uint32_t i = 0; i < count; i++) {
         const pir_condition on = pir_plane_condition(plane, i);
-        if (pir_search_filter(search, &on) == 1)
+        const pir_course_form form = is_facet ? pir_rows_form(&rows, i) : pir_course_form_of(&search->course, &on);
+        const int sign = pir_search_form_sign(search, &form);
+        if (sign == 1)
             return false;
+        all = all && sign == -1;
     }
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < count && !all; i++) {
         const pir_condition on = pir_plane_condition(plane, i);
         if (pir_search_sign(search, &on, when) >= 0)
             return false;

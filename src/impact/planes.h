@@ -2,11 +2,12 @@
 /*
  * Planes that separate, and proofs that bodies touch.
  *
- * Facets of the difference at its vertex a − b are: the facets of P at a, with b; those of Q at b, with a; the edges of
- * both there. When the point nearest to the origin of Q is on a face, one of the facets that hold that face separates.
+ * Facets of the difference at its vertex a − b are: the facets of P at a, with b; those of Q at b, with a; the edges
+ * of both there. When the point nearest to the origin of Q is on a face, one of the facets that hold that face
+ * separates.
  */
-#ifndef PIR_IMPACT_CANDIDATES_H
-#define PIR_IMPACT_CANDIDATES_H
+#ifndef PIR_IMPACT_PLANES_H
+#define PIR_IMPACT_PLANES_H
 
 #include <pirouette/query.h>
 
