@@ -26,7 +26,7 @@ PAGES = {
     "docs/exactness.md": "Exactness", "docs/cgm.md": "Cubical Gaussian maps",
     "docs/object-space.md": "Sums of simple bodies", "docs/slices.md": "Slices",
     "docs/scale.md": "Slices at scale",
-    "docs/motion.md": "Critical angles",
+    "docs/motion.md": "Critical angles and first contacts",
     "docs/solids.md": "Solids", "docs/clash.md": "Clashes", "docs/plan.md": "Plans",
     "docs/meshes.md": "Meshes", "docs/command.md": "The command",
     "docs/bad-input.md": "Bad input",

@@ -14,6 +14,7 @@
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
 #include <pirouette/events.h>
+#include <pirouette/impact.h>
 #include <pirouette/mesh.h>
 #include <pirouette/plan.h>
 #include <pirouette/polytope.h>
@@ -176,6 +177,21 @@ PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t verte
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_coefficients);
+
+/**
+ * As pir_pair_impact (impact.h); on a hit after the start also the quadratic that the κ of the contact is a root of,
+ * as of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Else, three zeros.
+ *
+ * pair, workspace, input, motion  as of pir_pair_impact.
+ * ret_coefficients                three initialised integers.
+ *
+ * Cost: as of pir_pair_impact, in exact arithmetic at the end.
+ *
+ * Errors: those of pir_pair_impact.
+ */
+PIR_API pir_status pir_pair_impact_exact(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                         const pir_exact_motion *motion, pir_exact_impact *ret_impact,
+                                         mpz_t *ret_coefficients);
 
 #ifdef __cplusplus
 }

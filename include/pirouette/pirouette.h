@@ -14,6 +14,7 @@
 #include <pirouette/events.h>
 #include <pirouette/gradient.h>
 #include <pirouette/history.h>
+#include <pirouette/impact.h>
 #include <pirouette/io.h>
 #include <pirouette/live_mesh.h>
 #include <pirouette/mass.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The code of docs/motion.md: a box turns on a box. */
+/* The code of docs/motion.md: a box turns on a box, and against one. */
 #include <stdio.h>
 
 #include <pirouette/pirouette.h>
@@ -11,6 +11,17 @@ int main(void) {
 
     /* snippet 1 */
 
+    pir_pair *pair = NULL;
+    pir_workspace *workspace = NULL;
+    if (pir_pair_create(p, q, NULL, &pair) != PIR_OK || pir_workspace_create(NULL, &workspace) != PIR_OK)
+        return 1;
+
+    /* snippet 2 */
+
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    if (hit.impact.outcome != PIR_CAST_HIT || !(hit.degrees > 10 && hit.degrees < 90))
+        return 1;
     pir_polytope_release(q);
     pir_polytope_release(p);
     // the last event is the quarter turn before the end

@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Conditions in integers: all points on one scale, normals as cross products of edges.
+ *
+ * The numbers are those of course.c up to positive factors.
+ */
+#include <pirouette/exact.h>
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "impact/course.h"
+#include "impact/pair_impact.h"
+
+/* --- making --- */
+
+/* The matrix of a quaternion, not divided by its square, which is `ret_norm`. */
+static void make_matrix(pir_quat q, mpq_t m[9], mpq_t ret_norm) {
+    const double given[4] = {q.x, q.y, q.z, q.w};
+    mpq_t c[4], product[4][4], sum;
+    mpq_init(sum);
+    for (int i = 0; i < 4; i++) {
+        mpq_init(c[i]);
+        mpq_set_d(c[i], given[i]);
+    }
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            mpq_init(product[i][j]);
+            mpq_mul(product[i][j], c[i], c[j]);
+        }
+    mpq_set_ui(ret_norm, 0, 1);
+    for (int i = 0; i < 4; i++)
+        mpq_add(ret_norm, ret_norm, product[i][i]);
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++) {
+            // 2 q_j q_i, and ±2 w q_k; on the diagonal w² − |v|² besides
+            mpq_add(m[3 * j + i], product[j][i], product[j][i]);
+            const int k = 3 - i - j;
+            if (i == j) {
+                mpq_sub(m[3 * j + i], m[3 * j + i], ret_norm);
+                mpq_add(sum, product[3][3], product[3][3]);
+                mpq_add(m[3 * j + i], m[3 * j + i], sum);
+            } else {
+                mpq_add(sum, product[3][k], product[3][k]);
+                if ((i + 1) % 3 == j)
+                    mpq_add(m[3 * j + i], m[3 * j + i], sum);
+                else
+                    mpq_sub(m[3 * j + i], m[3 * j + i], sum);
+            }
+        }
+    for (int i = 0; i < 4; i++) {
+        mpq_clear(c[i]);
+        for (int j = 0; j < 4; j++)
+            mpq_clear(product[i][j]);
+    }
+    mpq_clear(sum);
+}
+
+/* The points of a body, relative to the pivot, and the common denominator taken in. */
+static void make_points(const pir_course *course, int which, mpq_t *dst, mpz_t common) {
+    const pir_pose *pose = &course->pose[which];
+    const double move[3][2] = {{pose->translation.x, course->pivot.x},
+                               {pose->translation.y, course->pivot.y},
+                               {pose->translation.z, course->pivot.z}};
+    mpq_t m[9], norm, v[3], by;
+    mpq_inits(norm, v[0], v[1], v[2], by, NULL);
+    for (int i = 0; i < 9; i++)
+        mpq_init(m[i]);
+    make_matrix(pose->rotation, m, norm);
+    for (uint32_t i = 0; i < course->body[which]->vertex_count; i++) {
+        pir_polytope_vertex_exact(course->body[which], i, v);
+        for (int j = 0; j < 3; j++) {
+            mpq_t *at = &dst[3 * (size_t)i + (size_t)j];
+            mpq_set_ui(*at, 0, 1);
+            for (int k = 0; k < 3; k++) {
+                mpq_mul(by, m[3 * j + k], v[k]);
+                mpq_add(*at, *at, by);
+            }
+            mpq_div(*at, *at, norm);
+            mpq_set_d(by, move[j][0]);
+            mpq_add(*at, *at, by);
+            mpq_set_d(by, move[j][1]);
+            mpq_sub(*at, *at, by);
+            mpz_lcm(common, common, mpq_denref(*at));
+        }
+    }
+    for (int i = 0; i < 9; i++)
+        mpq_clear(m[i]);
+    mpq_clears(norm, v[0], v[1], v[2], by, NULL);
+}
+
+/* dst = src·common, an integer. */
+static void scale_up(mpz_t dst, const mpq_t src, const mpz_t common) {
+    mpz_divexact(dst, common, mpq_denref(src));
+    mpz_mul(dst, dst, mpq_numref(src));
+}
+
+static void make_axis(pir_course *course) {
+    pir_course_integers *exact = &course->exact;
+    const double u[3] = {course->axis.x, course->axis.y, course->axis.z};
+    int low = INT32_MAX;
+    for (int k = 0; k < 3; k++)
+        low = pir_double_low_bit(u[k]) < low ? pir_double_low_bit(u[k]) : low;
+    exact->exponent = course->turns ? low : 0;
+    mpz_init_set_ui(exact->square, 0);
+    for (int k = 0; k < 3; k++) {
+        mpz_init(exact->axis[k]);
+        if (!course->turns || u[k] == 0)
+            continue;
+        int e;
+        const uint64_t mantissa = pir_double_split(u[k], &e);
+        mpz_set_ui(exact->axis[k], (unsigned long)mantissa);
+        if (e >= low)
+            mpz_mul_2exp(exact->axis[k], exact->axis[k], (mp_bitcnt_t)(e - low));
+        else
+            mpz_tdiv_q_2exp(exact->axis[k], exact->axis[k], (mp_bitcnt_t)(low - e));
+        if (u[k] < 0)
+            mpz_neg(exact->axis[k], exact->axis[k]);
+        mpz_addmul(exact->square, exact->axis[k], exact->axis[k]);
+    }
+}
+
+/*
+ * Room for comparisons: with coordinates of b bits and an axis of a, normals have 2b + 4, those of sides 3b + 8, their
+ * quadratics 4b + 2a + 16. Ends of motions are doubles, of up to 2200 bits in units of k.
+ */
+static bool make_room(pir_course *course) {
+    pir_course_integers *exact = &course->exact;
+    size_t b = 1, a = 1;
+    for (int which = 0; which < 2; which++)
+        for (size_t i = 0; i < 3 * (size_t)course->body[which]->vertex_count; i++)
+            b = mpz_sizeinbase(exact->point[which][i], 2) > b ? mpz_sizeinbase(exact->point[which][i], 2) : b;
+    for (int k = 0; k < 3; k++) {
+        b = mpz_sizeinbase(exact->way[k], 2) > b ? mpz_sizeinbase(exact->way[k], 2) : b;
+        a = mpz_sizeinbase(exact->axis[k], 2) > a ? mpz_sizeinbase(exact->axis[k], 2) : a;
+    }
+    uint32_t limbs = (uint32_t)((4 * b + 2 * a + 16) / GMP_NUMB_BITS + 2);
+    const uint32_t least = pir_double_power_limbs(abs(exact->exponent));
+    limbs = limbs > least ? limbs : least;
+    exact->double_limbs = least;
+    const uint32_t room = PIR_QUADRATIC_SCRATCH(limbs) + 3 * limbs;
+    exact->limbs = PIR_NEW(course->allocator, mp_limb_t, room);
+    exact->scratch = (pir_limbs){exact->limbs, 0, room};
+    return exact->limbs != NULL;
+}
+
+static void free_points(pir_course *course, int which) {
+    const size_t count = 3 * (size_t)course->body[which]->vertex_count;
+    mpz_t *point = course->exact.point[which];
+    for (size_t i = 0; point != NULL && i < count; i++)
+        mpz_clear(point[i]);
+    PIR_FREE(course->allocator, point, count);
+}
+
+static void free_integers(pir_course *course) {
+    pir_course_integers *exact = &course->exact;
+    for (int which = 0; which < 2; which++)
+        free_points(course, which);
+    for (int k = 0; k < 3; k++)
+        mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->other[k], NULL);
+    mpz_clear(exact->square);
+    if (exact->limbs != NULL)
+        PIR_FREE(course->allocator, exact->limbs, exact->scratch.capacity);
+}
+
+/* Both bodies and the way, on their common denominator. */
+static void make_scaled(pir_course *course, mpq_t *rational, size_t count_p) {
+    pir_course_integers *exact = &course->exact;
+    const double way[3] = {course->way.x, course->way.y, course->way.z};
+    mpz_t common;
+    mpq_t step;
+    mpz_init_set_ui(common, 1);
+    mpq_init(step);
+    make_points(course, 0, rational, common);
+    make_points(course, 1, rational + count_p, common);
+    for (int k = 0; k < 3; k++) {
+        mpq_set_d(step, way[k]);
+        mpz_lcm(common, common, mpq_denref(step));
+    }
+    for (int k = 0; k < 3; k++) {
+        mpq_set_d(step, way[k]);
+        scale_up(exact->way[k], step, common);
+    }
+    for (size_t i = 0; i < count_p; i++)
+        scale_up(exact->point[0][i], rational[i], common);
+    for (size_t i = 0; i < 3 * (size_t)course->body[1]->vertex_count; i++)
+        scale_up(exact->point[1][i], rational[count_p + i], common);
+    mpz_clear(common);
+    mpq_clear(step);
+}
+
+pir_status pir_course_integers_make(pir_course *course) {
+    if (course->has_integers)
+        return PIR_OK;
+    pir_course_integers *exact = &course->exact;
+    const size_t count[2] = {3 * (size_t)course->body[0]->vertex_count, 3 * (size_t)course->body[1]->vertex_count};
+    mpq_t *rational = PIR_NEW(course->allocator, mpq_t, count[0] + count[1]);
+    if (rational == NULL)
+        return PIR_ERR_MEMORY;
+    exact->limbs = NULL;
+    for (int which = 0; which < 2; which++) {
+        exact->point[which] = PIR_NEW(course->allocator, mpz_t, count[which]);
+        for (size_t i = 0; exact->point[which] != NULL && i < count[which]; i++)
+            mpz_init(exact->point[which][i]);
+    }
+    for (int k = 0; k < 3; k++)
+        mpz_inits(exact->way[k], exact->root[k], exact->other[k], NULL);
+    for (size_t i = 0; i < count[0] + count[1]; i++)
+        mpq_init(rational[i]);
+    make_axis(course);
+    bool made = exact->point[0] != NULL && exact->point[1] != NULL;
+    if (made) {
+        make_scaled(course, rational, count[0]);
+        made = make_room(course);
+    }
+    for (size_t i = 0; i < count[0] + count[1]; i++)
+        mpq_clear(rational[i]);
+    PIR_FREE(course->allocator, rational, count[0] + count[1]);
+    if (!made)
+        free_integers(course);
+    course->has_integers = made;
+    return made ? PIR_OK : PIR_ERR_MEMORY;
+}
+
+void pir_course_finish(pir_course *course) {
+    for (int which = 0; which < 2; which++) {
+        const pir_polytope *body = course->body[which];
+        PIR_FREE(course->allocator, course->point[which],
+                 (size_t)body->vertex_count + body->facet_count + body->edge_count);
+    }
+    if (course->has_integers)
+        free_integers(course);
+}
+
+/* --- conditions --- */
+
+typedef struct spatial {
+    mpz_t c[3];
+} spatial;
+
+static void spatial_init(spatial *v) {
+    mpz_inits(v->c[0], v->c[1], v->c[2], NULL);
+}
+
+static void spatial_clear(spatial *v) {
+    mpz_clears(v->c[0], v->c[1], v->c[2], NULL);
+}
+
+static void add_times(mpz_t dst, const mpz_t a, int by) {
+    if (by >= 0)
+        mpz_addmul_ui(dst, a, (unsigned long)by);
+    else
+        mpz_submul_ui(dst, a, (unsigned long)-by);
+}
+
+static void dot(mpz_t dst, mpz_t *a, mpz_t *b) {
+    mpz_mul(dst, a[0], b[0]);
+    mpz_addmul(dst, a[1], b[1]);
+    mpz_addmul(dst, a[2], b[2]);
+}
+
+static void cross(spatial *dst, mpz_t *a, mpz_t *b) {
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        mpz_mul(dst->c[k], a[i], b[j]);
+        mpz_submul(dst->c[k], a[j], b[i]);
+    }
+}
+
+static mpz_t *point_of(const pir_course *course, int which, uint32_t v) {
+    return &course->exact.point[which][3 * (size_t)v];
+}
+
+static void half_of(const pir_course *course, int which, uint32_t half, spatial *dst) {
+    const pir_polytope *body = course->body[which];
+    mpz_t *a = point_of(course, which, body->origin[half]), *b = point_of(course, which, body->target[half]);
+    for (int k = 0; k < 3; k++)
+        mpz_sub(dst->c[k], b[k], a[k]);
+}
+
+/* Outwards: of two halfedges of its loop. */
+static void normal_of(const pir_course *course, int which, uint32_t facet, spatial *dst) {
+    const pir_polytope *body = course->body[which];
+    const uint32_t *loop = &body->loop[body->loop_start[facet]];
+    spatial a, b;
+    spatial_init(&a);
+    spatial_init(&b);
+    half_of(course, which, loop[0], &a);
+    half_of(course, which, loop[1], &b);
+    cross(dst, a.c, b.c);
+    spatial_clear(&a);
+    spatial_clear(&b);
+}
+
+/* Adds by·(y·R x). */
+static void add_product(pir_course *course, mpz_t c[3], mpz_t *x, mpz_t *y, int by) {
+    pir_course_integers *exact = &course->exact;
+    mpz_t xy, other, last;
+    mpz_inits(xy, other, last, NULL);
+    dot(xy, x, y);
+    add_times(c[0], xy, by);
+    if (course->turns) {
+        spatial turned;
+        spatial_init(&turned);
+        cross(&turned, exact->axis, x);
+        dot(other, turned.c, y);
+        add_times(c[1], other, 2 * by);
+        dot(other, exact->axis, x);
+        dot(last, exact->axis, y);
+        mpz_mul(other, other, last);
+        add_times(c[2], other, 2 * by);
+        mpz_mul(xy, xy, exact->square);
+        add_times(c[2], xy, -by);
+        spatial_clear(&turned);
+    }
+    mpz_clears(xy, other, last, NULL);
+}
+
+static void exact_of_plane(pir_course *course, const pir_condition *on, mpz_t c[3]) {
+    const bool of_q = on->kind == PIR_Q_PLANE || on->kind == PIR_Q_SIDE;
+    const bool is_side = on->kind == PIR_Q_SIDE || on->kind == PIR_P_SIDE;
+    const int own = of_q;
+    const pir_polytope *body = course->body[own];
+    const uint32_t face = of_q ? on->q : on->p, v = of_q ? on->p : on->q;
+    const uint32_t base = body->origin[is_side ? face : body->loop[body->loop_start[face]]];
+    spatial n, along;
+    mpz_t h;
+    spatial_init(&n);
+    spatial_init(&along);
+    mpz_init(h);
+    normal_of(course, own, is_side ? body->left[face] : face, &n);
+    if (is_side) {
+        spatial normal = n;
+        spatial_init(&n);
+        half_of(course, own, face, &along);
+        cross(&n, along.c, normal.c);
+        spatial_clear(&normal);
+    } else {
+        for (int k = 0; k < 3; k++)
+            mpz_neg(n.c[k], n.c[k]);
+    }
+    if (of_q)
+        add_product(course, c, point_of(course, 0, v), n.c, 1);
+    else
+        add_product(course, c, n.c, point_of(course, 1, v), 1);
+    dot(h, n.c, point_of(course, own, base));
+    mpz_sub(c[0], c[0], h);
+    if (course->turns) {
+        mpz_submul(c[2], h, course->exact.square);
+    } else {
+        dot(h, n.c, course->exact.way);
+        add_times(c[1], h, of_q ? 1 : -1);
+    }
+    mpz_clear(h);
+    spatial_clear(&n);
+    spatial_clear(&along);
+}
+
+static void exact_of_edges(pir_course *course, const pir_condition *on, mpz_t c[3]) {
+    const pir_polytope *p = course->body[0], *q = course->body[1];
+    spatial e, f, other;
+    spatial_init(&e);
+    spatial_init(&f);
+    spatial_init(&other);
+    half_of(course, 0, p->edge_half[on->p], &e);
+    half_of(course, 1, q->edge_half[on->q], &f);
+    if (on->kind == PIR_CROSSING) {
+        const int which = on->corner < 2 ? 0 : 1;
+        const pir_arc_ends ends = course->body[which]->arc_ends[which == 0 ? on->p : on->q];
+        normal_of(course, which, on->corner % 2 == 0 ? ends.from : ends.to, &other);
+        const int by = on->corner % 2 == 0 ? on->side : -on->side;
+        add_product(course, c, which == 0 ? other.c : e.c, which == 0 ? f.c : other.c, by);
+    } else {
+        cross(&other, point_of(course, 0, p->origin[p->edge_half[on->p]]), e.c);
+        add_product(course, c, other.c, f.c, -on->side);
+        cross(&other, f.c, point_of(course, 1, q->origin[q->edge_half[on->q]]));
+        add_product(course, c, e.c, other.c, on->side);
+        if (!course->turns) {
+            mpz_t rate;
+            mpz_init(rate);
+            cross(&other, e.c, f.c);
+            dot(rate, other.c, course->exact.way);
+            add_times(c[1], rate, -on->side);
+            mpz_clear(rate);
+        }
+    }
+    spatial_clear(&e);
+    spatial_clear(&f);
+    spatial_clear(&other);
+}
+
+void pir_course_exact(pir_course *course, const pir_condition *on, mpz_t dst[3]) {
+    course->by_exact++;
+    for (int k = 0; k < 3; k++)
+        mpz_set_ui(dst[k], 0);
+    if (on->kind == PIR_CROSSING || on->kind == PIR_EDGES)
+        exact_of_edges(course, on, dst);
+    else
+        exact_of_plane(course, on, dst);
+}
+
+pir_quadratic pir_course_view(mpz_t c[3]) {
+    pir_quadratic view;
+    for (int k = 0; k < 3; k++)
+        view.c[k] = (pir_int){(mp_limb_t *)mpz_limbs_read(c[k]), mpz_sgn(c[k]) * (int32_t)mpz_size(c[k]), 0};
+    return view;
+}
+
+pir_status pir_course_polynomial(pir_course *course, const pir_condition *condition, mpz_t *dst) {
+    const pir_status status = pir_course_integers_make(course);
+    if (status != PIR_OK)
+        return status;
+    pir_course_exact(course, condition, dst);
+    if (!course->turns) { // κ is a factor
+        mpz_swap(dst[1], dst[2]);
+        mpz_swap(dst[0], dst[1]);
+    }
+    // from k = κ·2^-e to κ
+    const int e = course->exact.exponent;
+    for (int k = 0; k < 3; k++)
+        mpz_mul_2exp(dst[k], dst[k], (mp_bitcnt_t)(e > 0 ? k * e : (2 - k) * -e));
+    mpz_t common;
+    mpz_init(common);
+    for (int k = 0; k < 3; k++)
+        mpz_gcd(common, common, dst[k]);
+    if (mpz_sgn(dst[mpz_sgn(dst[0]) != 0 ? 0 : 1]) < 0)
+        mpz_neg(common, common);
+    for (int k = 0; k < 3; k++)
+        mpz_divexact(dst[k], dst[k], common);
+    mpz_clear(common);
+    return PIR_OK;
+}
+
+pir_status pir_pair_impact_exact(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                 const pir_exact_motion *motion, pir_exact_impact *ret_impact,
+                                 mpz_t *ret_coefficients) {
+    if (ret_coefficients == NULL)
+        return PIR_ERR_ARGUMENT;
+    return pir_pair_impact_run(pair, workspace, input, motion, ret_impact, ret_coefficients);
+}
