@@ -450,22 +450,22 @@ static void contacts_known_by_hand(void **state) {
     pir_polytope *bar = test_box(4, 1, 1), *box = test_box_at(1, 1, 1, (pir_vec3){0, 6, 0});
     const pir_vec3 z = {0, 0, 1};
     // the bar's end, (4, 1), reaches the height of the box's lower side, 5, only where x is below 0: no contact
-    pir_exact_impact impact = ask(bar, box, shifted(0, 0, 0), (pir_exact_motion){{0, 0, 0}, z, 360, {0}}, PIR_OK);
+    pir_exact_impact impact = ask(bar, box, shifted(0, 0, 0), (pir_exact_motion){{0, 0, 0}, z, 360, {0, 0, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
     assert_true(impact.degrees == 360 && impact.impact.time == 1);
     // an upright bar whose end turns about the box's middle line touches at a quarter turn, face on face
-    impact = ask(bar, box, shifted(5, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0}}, PIR_OK);
+    impact = ask(bar, box, shifted(5, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0, 0, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
     // (9, 1) and (9, 3) turn about (1, 1); the corner (9, 1) is never nearer than 8, and the side of y = 3 meets (1, 5)
     assert_true(impact.degrees < 90 && impact.degrees > 29.999);
     pir_polytope *cube = test_box(1, 1, 1);
     // a cube turns by a quarter onto another: face meets face at the end exactly
-    impact = ask(cube, cube, shifted(2, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0}}, PIR_OK);
+    impact = ask(cube, cube, shifted(2, 2, 0), (pir_exact_motion){{1, 1, 0}, z, 90, {0, 0, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_RECEDING);
-    impact = ask(cube, cube, shifted(2, 3, 0), (pir_exact_motion){{1, 2, 0}, z, 90, {0}}, PIR_OK);
+    impact = ask(cube, cube, shifted(2, 3, 0), (pir_exact_motion){{1, 2, 0}, z, 90, {0, 0, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
     // about its own corner (1, 1) the lower side comes down on the upper side of the other cube after half a turn
-    impact = ask(cube, cube, shifted(3, 2, 0), (pir_exact_motion){{2, 1, 0}, z, -90, {0}}, PIR_OK);
+    impact = ask(cube, cube, shifted(3, 2, 0), (pir_exact_motion){{2, 1, 0}, z, -90, {0, 0, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_MISS);
     impact = ask(cube, cube, shifted(0, 5, 0), (pir_exact_motion){.way = {0, -3, 0}}, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
@@ -487,7 +487,7 @@ static void a_lid_closes_at_a_quarter_turn(void **state) {
     // upright, its lower side along y from the hinge at the origin, it falls towards +x
     pir_pair_input input = pir_pair_input_default();
     input.pose_p = (pir_pose){.translation = {0, 2.5, 0}, .rotation = {0, 0, 1, 1}};
-    const pir_exact_motion motion = {{0, 0.5, 0}, {0, 0, 1}, -120, {0}};
+    const pir_exact_motion motion = {{0, 0.5, 0}, {0, 0, 1}, -120, {0, 0, 0}};
     pir_exact_impact impact = ask(lid, box, input, motion, PIR_OK);
     assert_int_equal(impact.impact.outcome, PIR_CAST_HIT);
     assert_true(impact.degrees <= 90 + 1e-9);
@@ -511,7 +511,7 @@ static void memory_that_fails_at_any_request_is_told(void **state) {
         pir_status status = pir_pair_create(p, q, &options, &pair);
         pir_exact_impact impact = {.degrees = -1};
         const pir_pair_input input = shifted(3, 0, 0);
-        const pir_exact_motion motion = {{1.5, 0, 0}, {0, 0, 1}, 180, {0}};
+        const pir_exact_motion motion = {{1.5, 0, 0}, {0, 0, 1}, 180, {0, 0, 0}};
         if (status == PIR_OK)
             status = pir_pair_impact(pair, workspace, &input, &motion, &impact);
         done = memory.requests < at;
@@ -529,19 +529,19 @@ static void bad_input_is_refused(void **state) {
     pir_polytope *cube = test_box(1, 1, 1), *flat = test_box(1, 1, 0);
     const pir_vec3 z = {0, 0, 1};
     const pir_pair_input far = shifted(5, 0, 0);
-    ask(flat, flat, far, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_ARGUMENT);
-    ask(cube, cube, far, (pir_exact_motion){{0}, z, 361, {0}}, PIR_ERR_ARGUMENT);
-    ask(cube, cube, far, (pir_exact_motion){{0}, z, 90, {1, 0, 0}}, PIR_ERR_ARGUMENT);
-    ask(cube, cube, far, (pir_exact_motion){{0}, {0, 0, 0}, 90, {0}}, PIR_ERR_ARGUMENT);
-    ask(cube, cube, far, (pir_exact_motion){{0}, z, NAN, {0}}, PIR_ERR_NOT_FINITE);
-    ask(cube, cube, far, (pir_exact_motion){{INFINITY, 0, 0}, z, 90, {0}}, PIR_ERR_NOT_FINITE);
-    ask(cube, cube, far, (pir_exact_motion){{0}, {0, 0, 1e200}, 90, {0}}, PIR_ERR_LIMIT);
+    ask(flat, flat, far, (pir_exact_motion){{0, 0, 0}, z, 90, {0, 0, 0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0, 0, 0}, z, 361, {0, 0, 0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0, 0, 0}, z, 90, {1, 0, 0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0, 0, 0}, {0, 0, 0}, 90, {0, 0, 0}}, PIR_ERR_ARGUMENT);
+    ask(cube, cube, far, (pir_exact_motion){{0, 0, 0}, z, NAN, {0, 0, 0}}, PIR_ERR_NOT_FINITE);
+    ask(cube, cube, far, (pir_exact_motion){{INFINITY, 0, 0}, z, 90, {0, 0, 0}}, PIR_ERR_NOT_FINITE);
+    ask(cube, cube, far, (pir_exact_motion){{0, 0, 0}, {0, 0, 1e200}, 90, {0, 0, 0}}, PIR_ERR_LIMIT);
     pir_pair_input turned = far;
     turned.pose_q.rotation = (pir_quat){0, 0, 0, 0};
-    ask(cube, cube, turned, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_ZERO_QUATERNION);
+    ask(cube, cube, turned, (pir_exact_motion){{0, 0, 0}, z, 90, {0, 0, 0}}, PIR_ERR_ZERO_QUATERNION);
     turned = far;
     turned.pose_p.translation.x = NAN;
-    ask(cube, cube, turned, (pir_exact_motion){{0}, z, 90, {0}}, PIR_ERR_NOT_FINITE);
+    ask(cube, cube, turned, (pir_exact_motion){{0, 0, 0}, z, 90, {0, 0, 0}}, PIR_ERR_NOT_FINITE);
     pir_exact_impact impact;
     assert_int_equal(pir_pair_impact(NULL, NULL, NULL, NULL, &impact), PIR_ERR_ARGUMENT);
     pir_polytope_release(cube);
