@@ -37,7 +37,7 @@ def number(name: str, value: Any) -> float:
 def whole(name: str, value: Any, least: int, most: int) -> int:
     try:
         found = int(value)
-        if found != value:
+        if np.ndim(value) != 0 or found != value:
             raise ValueError
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name}: not a whole number: {value!r}") from None

@@ -7,11 +7,18 @@ from typing import Any, Callable, List, Sequence, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Floats, number, pointer, poses, rows, vector, whole
+from ._arrays import Floats, floats, number, pointer, poses, rows, vector, whole
 from ._check import InputError, check
 from ._native import ffi, lib
 from ._polytopes import Mass, mass_of
 from ._surfaces import HeightField, TriMesh
+
+# named in the messages of calls that fail
+_ARGUMENTS = {
+    "ball": "radius", "capsule": "a, b, radius", "box": "half, radius", "cylinder": "radius, height, sides",
+    "cone": "radius, height, sides", "plane": "normal, offset, reach", "hull": "points, radius", "compound": "parts",
+    "mesh": "surface, radius", "field": "surface, radius",
+}
 
 Parts = Sequence[Tuple["Shape", npt.ArrayLike]]
 
@@ -37,7 +44,7 @@ class Shape:
     @classmethod
     def _of(cls, name: str, call: Any, arguments: Tuple[Any, ...], *given: Any) -> "Shape":
         found, report = ffi.new("pir_body_shape **"), ffi.new("pir_report *")
-        check(call(*given, ffi.NULL, report, found), name, report)
+        check(call(*given, ffi.NULL, report, found), f"{name}({_ARGUMENTS[name]})", report)
         made = cls.__new__(cls)
         made._pointer = ffi.gc(found[0], lib.pir_body_shape_release)
         made._made = (name, arguments)
@@ -53,14 +60,14 @@ class Shape:
     def capsule(cls, a: npt.ArrayLike, b: npt.ArrayLike, radius: float) -> "Shape":
         """All that is within a radius of the segment from a to b."""
         r = number("radius", radius)
-        return cls._of("capsule", lib.pir_body_shape_capsule, (np.array(a, float), np.array(b, float), r),
+        return cls._of("capsule", lib.pir_body_shape_capsule, (floats("a", a).copy(), floats("b", b).copy(), r),
                        vector("a", a), vector("b", b), r)
 
     @classmethod
     def box(cls, half: npt.ArrayLike, radius: float = 0.0) -> "Shape":
         """A box about the origin; `half` of its edges, of which `radius` rounds the corners, counts in."""
         r = number("radius", radius)
-        return cls._of("box", lib.pir_body_shape_box, (np.array(half, float), r), vector("half", half), r)
+        return cls._of("box", lib.pir_body_shape_box, (floats("half", half).copy(), r), vector("half", half), r)
 
     @classmethod
     def cylinder(cls, radius: float, height: float, sides: int = 32) -> "Shape":
@@ -78,7 +85,7 @@ class Shape:
     def plane(cls, normal: npt.ArrayLike, offset: float = 0.0, reach: float = 1000.0) -> "Shape":
         """The half-space of all x with normal · x ≤ offset, as far as `reach`."""
         d, r = number("offset", offset), number("reach", reach)
-        return cls._of("plane", lib.pir_body_shape_plane, (np.array(normal, float), d, r), vector("normal", normal),
+        return cls._of("plane", lib.pir_body_shape_plane, (floats("normal", normal).copy(), d, r), vector("normal", normal),
                        d, r)
 
     @classmethod
@@ -91,7 +98,11 @@ class Shape:
     def compound(cls, parts: Parts) -> "Shape":
         """Shapes of one radius put together, each with its pose: [(shape, pose), …]."""
         kept: List[Tuple[Shape, Floats]] = []
-        for i, (shape, at) in enumerate(parts):
+        try:
+            given_ = [(shape, at) for shape, at in parts]
+        except (TypeError, ValueError):
+            raise InputError("parts: not a sequence of shapes and poses") from None
+        for i, (shape, at) in enumerate(given_):
             array, one = poses(f"parts[{i}]", at)
             if not isinstance(shape, Shape) or one:
                 raise InputError(f"parts[{i}]: not a Shape and one pose")

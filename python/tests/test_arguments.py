@@ -69,6 +69,39 @@ def test_odd_scenes(value):
 
 
 @FAST
+@given(ODD)
+def test_odd_values_of_the_rest(value):
+    scene, cube = pirouette.Scene(), pirouette.Polytope(CORNERS)
+    body, rest = scene.add(cube), [0, 0, 0, 1, 0, 0, 0]
+    survives("axis", lambda: pirouette.MinkowskiSum(CORNERS, CORNERS).next_event(value))
+    survives("axis", lambda: pirouette.MinkowskiSum(CORNERS, CORNERS).set_region(value, 1))
+    survives("translations", lambda: pirouette.MinkowskiSum(CORNERS, CORNERS).penetrations(value))
+    survives("kappa", lambda: pirouette.TurnEvents(CORNERS, CORNERS, [0, 0, 1]).seek(value))
+    survives("pose", lambda: PAIR.active_gradients(value))
+    survives("slack", lambda: PAIR.active_gradients(rest, slack=value))
+    survives("poses_p", lambda: pirouette.Solid(cube).contacts(pirouette.Solid(cube), value))
+    survives("", lambda: pirouette.plan(cube, cube, value, [3, 0, 0]))
+    survives("", lambda: pirouette.plan(cube, cube, [4, 0, 0], [3, 0, 0], bounds=value, parts=100))
+    survives("robot", lambda: pirouette.plan(value, cube, [4, 0, 0], [3, 0, 0]))
+    survives("points", lambda: pirouette.Polytope.from_fractions(value))
+    survives("radius", lambda: pirouette.Shape.ball(value))
+    survives("", lambda: pirouette.Shape.capsule(value, [0, 0, 1], 1))
+    survives("points", lambda: pirouette.Shape.hull(value))
+    survives("parts", lambda: pirouette.Shape.compound([(pirouette.Shape.ball(1), value)]))
+    survives("parts", lambda: pirouette.Shape.compound(value))
+    survives("half", lambda: pirouette.Shape.box(value))
+    survives("normal", lambda: pirouette.Shape.plane(value))
+    survives("ignored", lambda: scene.rays([0, 0, 0], [0, 0, 1], ignored=value))
+    survives("radius", lambda: scene.rays([0, 0, 0], [0, 0, 1], radius=value))
+    survives("", lambda: scene.cast(cube, rest, value))
+    survives("", lambda: scene.overlaps(cube, value))
+    survives("category", lambda: scene.set_filter(body, value, 1))
+    survives("body", lambda: scene.disable(value))
+    survives("user", lambda: scene.set_user(body, value))
+    survives("", scene.update)
+
+
+@FAST
 @given(st.integers(1, 5), st.booleans(), st.booleans(), st.sampled_from(["f8", "f4", ">f8", "i8", "f2", "longdouble"]))
 def test_layouts_give_the_same_answers(step, fortran, backwards, kind):
     poses = np.round(hovering(60) * 4).astype(kind)

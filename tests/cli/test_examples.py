@@ -6,6 +6,7 @@ Usage: test_examples.py NAME PROGRAM [ARGUMENT...], where NAME is the example an
 """
 import itertools
 import math
+import pathlib
 import random
 import re
 import subprocess
@@ -141,7 +142,7 @@ class Examples:
         """After a full turn the sum reaches as far as P and Q together, in every direction."""
 
         def points_of(path):
-            tokens = re.sub(r"#[^\n]*", "", open(path, encoding="ascii").read()).split()[1:]
+            tokens = re.sub(r"#[^\n]*", "", pathlib.Path(path).read_text(encoding="ascii")).split()[1:]
             return [tuple(map(float, tokens[i:i + 3])) for i in range(3, 3 + 3 * int(tokens[0]), 3)]
 
         p, q, told = map(points_of, self.arguments)
