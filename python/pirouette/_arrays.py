@@ -36,8 +36,9 @@ def number(name: str, value: Any) -> float:
 
 def whole(name: str, value: Any, least: int, most: int) -> int:
     try:
-        found = int(value)
-        if np.ndim(value) != 0 or found != value:
+        plain = value.item() if isinstance(value, (np.ndarray, np.generic)) and value.ndim == 0 else value
+        found = int(plain)
+        if isinstance(plain, np.ndarray) or found != plain:
             raise ValueError
     except (TypeError, ValueError, OverflowError):
         raise InputError(f"{name}: not a whole number: {value!r}") from None

@@ -288,7 +288,7 @@ class Scene(Handle):
             status = lib.pir_scene_ray_batch(scene, pointer(rays, "pir_scene_segment *"), len(rays), options,
                                              pointer(found, "pir_impact *"))
         del left_out
-        if status == lib.PIR_ERR_NOT_FINITE:
+        if status == lib.PIR_ERR_NOT_FINITE and not np.isfinite(rays).all():
             fail_at(status, "origins or ways", int(np.isfinite(rays).all(axis=1).argmin()))
         check(status, "origins, ways or radius", self._report)
         found = found.reshape(shape)

@@ -60,8 +60,8 @@ class Shape:
     def capsule(cls, a: npt.ArrayLike, b: npt.ArrayLike, radius: float) -> "Shape":
         """All that is within a radius of the segment from a to b."""
         r = number("radius", radius)
-        return cls._of("capsule", lib.pir_body_shape_capsule, (floats("a", a).copy(), floats("b", b).copy(), r),
-                       vector("a", a), vector("b", b), r)
+        ends = floats("a", a).copy(), floats("b", b).copy()
+        return cls._of("capsule", lib.pir_body_shape_capsule, (*ends, r), vector("a", a), vector("b", b), r)
 
     @classmethod
     def box(cls, half: npt.ArrayLike, radius: float = 0.0) -> "Shape":
@@ -84,9 +84,8 @@ class Shape:
     @classmethod
     def plane(cls, normal: npt.ArrayLike, offset: float = 0.0, reach: float = 1000.0) -> "Shape":
         """The half-space of all x with normal · x ≤ offset, as far as `reach`."""
-        d, r = number("offset", offset), number("reach", reach)
-        return cls._of("plane", lib.pir_body_shape_plane, (floats("normal", normal).copy(), d, r), vector("normal", normal),
-                       d, r)
+        n, d, r = floats("normal", normal).copy(), number("offset", offset), number("reach", reach)
+        return cls._of("plane", lib.pir_body_shape_plane, (n, d, r), vector("normal", n), d, r)
 
     @classmethod
     def hull(cls, points: npt.ArrayLike, radius: float = 0.0) -> "Shape":
