@@ -732,6 +732,11 @@ static bool counts_even(void *context, uint32_t body, uint64_t user) {
 }
 
 /* What a filter leaves out, each by a scene without it; many rays at once are as one after the other. */
+static bool are_same_hits(const pir_scene_hit *a, const pir_scene_hit *b) {
+    return a->body == b->body && a->piece == b->piece && a->state == b->state && a->user == b->user &&
+           a->piece_user == b->piece_user;
+}
+
 static void filters_leave_out_what_they_name(void **state) {
     (void)state;
     static crowd c;
@@ -755,7 +760,7 @@ static void filters_leave_out_what_they_name(void **state) {
             size_t next = 0;
             for (size_t i = 0; i < of_all; i++)
                 if (k == 0 ? all[i].body != 1 && all[i].body != 4 : all[i].body % 2 == 0)
-                    assert_memory_equal(&few[next++], &all[i], sizeof *all);
+                    assert_true(are_same_hits(&few[next++], &all[i]));
             assert_int_equal(next, of_few);
         }
         assert_true(asked > 0 || of_all == 0);
