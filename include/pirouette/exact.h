@@ -183,6 +183,7 @@ PIR_API pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_co
  * as of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Else, three zeros.
  *
  * pair, workspace, input, motion  as of pir_pair_impact.
+ * ret_impact                      likewise.
  * ret_coefficients                three initialised integers.
  *
  * Cost: as of pir_pair_impact, in exact arithmetic at the end.
