@@ -4,7 +4,7 @@
  *
  * slices_classify.csv: for some scenes and levels, 100,000 poses about where bodies meet and as many in the window
  * within 5 % of the size from contact. What a pose takes: alone, as the median; in one call, the verdict alone and all
- * that is known; and in a loop over a pair of the caller's own, five rounds in turn, the fastest of each counts. CPU
+ * that is known; and in a loop over a pair of the caller's own, three rounds in turn, the fastest of each counts. CPU
  * time, but of the median. `wrong` counts verdicts that are not the state by that loop, `resident_kib` is the most
  * that the process has taken until then, the making of the files included.
  */
@@ -20,7 +20,7 @@
 #include "slices_scene.h"
 #include "trial.h"
 
-#define ROUNDS 5
+#define ROUNDS 3
 #define POSES  100000
 
 /* The poses, and room for what is answered. */
@@ -70,6 +70,7 @@ static pir_pose pose_of(struct poses *poses, double reach, bool window, uint64_t
     return input.pose_p;
 }
 
+/* By a pair that was not asked for distances before, as those of files are not. */
 static double ask_pairs(struct poses *poses) {
     pir_pair_input input = pir_pair_input_default();
     double start = slices_cpu();
@@ -114,8 +115,11 @@ static double ask_alone(pir_cspace *file, struct poses *poses) {
 }
 
 static void measure_poses(const char *name, pir_cspace *file, struct poses *poses, bool window, FILE *csv) {
-    const pir_cspace_arrays all = {.verdict = poses->verdict, .state = poses->state, .on_grid = poses->on_grid,
-                                   .slice = poses->slice, .turn = poses->turn};
+    const pir_cspace_arrays all = {.verdict = poses->verdict,
+                                   .state = poses->state,
+                                   .on_grid = poses->on_grid,
+                                   .slice = poses->slice,
+                                   .turn = poses->turn};
     const pir_cspace_arrays few = {.verdict = poses->verdict};
     double alone = HUGE_VAL, verdict = HUGE_VAL, whole = HUGE_VAL, pairs = HUGE_VAL;
     for (int round = 0; round < ROUNDS; round++) {
@@ -156,8 +160,8 @@ static struct poses poses_new(const struct slices_bodies *bodies) {
 }
 
 static void poses_free(struct poses *poses) {
-    void *const all[] = {poses->pose,  poses->by_pairs, poses->verdict, poses->state, poses->on_grid,
-                         poses->slice, poses->turn,     poses->alone};
+    void *const all[] = {poses->pose,    poses->by_pairs, poses->verdict, poses->state,
+                         poses->on_grid, poses->slice,    poses->turn,    poses->alone};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     pir_pair_destroy(poses->pair);
@@ -181,6 +185,8 @@ static void measure(const struct slices_scene *scene, const char *folder, FILE *
         uint64_t seed = 35;
         for (uint32_t i = 0; i < poses.count; i++)
             poses.pose[i] = pose_of(&poses, reach, window != 0, &seed);
+        pir_pair_destroy(poses.pair);
+        trial_need(pir_pair_create(bodies.p[0], bodies.q, NULL, &poses.pair), "pair");
         measure_poses(scene->name, file, &poses, window != 0, csv);
     }
     pir_cspace_destroy(file);

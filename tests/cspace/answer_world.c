@@ -71,8 +71,7 @@ void answer_world_init(answer_world *world, int kind, pir_grid *grid) {
             double reach = pir_piece_ball_of(world->robot[k]).reach + pir_piece_ball_of(world->obstacle[l]).reach;
             world->size = fmax(world->size, reach);
         }
-    const pir_answered_bodies bodies = {grid, world->robot, world->obstacle, world->robot_count,
-                                        world->obstacle_count};
+    const pir_answered_bodies bodies = {grid, world->robot, world->obstacle, world->robot_count, world->obstacle_count};
     need(pir_answers_init(&world->answers, &bodies, NULL));
 }
 

@@ -275,7 +275,8 @@ static void bad_poses_are_refused(void **state) {
     const pir_pose bad[] = {{{0, 0, 0, 0}, {0, 0, 0}}, {{0, 0, NAN, 1}, {0, 0, 0}}, {{0, 0, 0, 1}, {0, INFINITY, 0}}};
     for (int k = 0; k < 3; k++) {
         pir_status expected = k == 0 ? PIR_ERR_ZERO_QUATERNION : PIR_ERR_NOT_FINITE;
-        assert_int_equal(pir_answers_classify(&world.answers, &bad[k], PIR_WISH_PLACE, &report, &answer, &gap), expected);
+        assert_int_equal(pir_answers_classify(&world.answers, &bad[k], PIR_WISH_PLACE, &report, &answer, &gap),
+                         expected);
         assert_int_equal(report.status, expected);
         assert_int_equal(pir_answers_segment(&world.answers, &good, &bad[k], &report, &motion), expected);
         assert_int_equal(pir_answers_segment(&world.answers, &bad[k], &good, NULL, &motion), expected);

@@ -106,13 +106,14 @@ static void a_file_answers_as_the_bodies_do(void **state) {
             expect(pir_cspace_classify(cspace, &from, &report, &file) == PIR_OK, "%s", report.text);
             expect(same_answer(&bodies, &file), "world %d pose %u", kind, i);
             assert_int_equal(file.verdict, answer_world_sum_state(&world, &from) == PIR_OUTSIDE ? PIR_VERDICT_FREE
-                                                                                               : PIR_VERDICT_BLOCKED);
+                                                                                                : PIR_VERDICT_BLOCKED);
             if (i % 20 != 0)
                 continue;
             pir_cspace_motion of_bodies, of_file;
             assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &of_bodies), PIR_OK);
             expect(pir_cspace_segment(cspace, &from, &to, &report, &of_file) == PIR_OK, "%s", report.text);
-            assert_true(of_bodies.verdict == of_file.verdict && of_bodies.from == of_file.from && of_bodies.to == of_file.to);
+            assert_true(of_bodies.verdict == of_file.verdict && of_bodies.from == of_file.from &&
+                        of_bodies.to == of_file.to);
         }
         pir_cspace_destroy(cspace);
         answer_world_finish(&world);
@@ -178,8 +179,8 @@ static void many_poses_are_single_answers(void **state) {
                 assert_true(verdict[i] == PIR_POSE_BAD && exact[i] == PIR_POSE_BAD && isnan(turn[i]) && !on_grid[i]);
                 continue;
             }
-            const pir_configuration told = {(pir_verdict)verdict[i], {robot[i], obstacle[i], slice[i]}, on_grid[i],
-                                            (pir_state)exact[i],     turn[i]};
+            const pir_configuration told = {
+                (pir_verdict)verdict[i], {robot[i], obstacle[i], slice[i]}, on_grid[i], (pir_state)exact[i], turn[i]};
             expect(same_answer(&one, &told), "world %d pose %u", kind, i);
         }
         const pir_cspace_arrays few = {.verdict = alone};

@@ -17,9 +17,13 @@
 #include "base/report.h"
 #include "base/vec.h"
 #include "cspace/answer/same_rotation.h"
+#include "cspace/grid/angle.h"
 #include "exact/rotation.h"
 
-/* How many of the nearest rotations are held against the pose's. */
+/*
+ * How many of the nearest rotations of a list are held against the pose's, which may be closer to each other than
+ * doubles tell. Those of other grids are not: the nearest is the pose's own where one is.
+ */
 #define NEAREST 4
 
 /* The most pairs that are kept. */
@@ -43,6 +47,7 @@ static pir_layout layout_of(pir_answers *answers) {
 pir_status pir_answers_init(pir_answers *answers, const pir_answered_bodies *bodies, const pir_allocator *allocator) {
     const uint64_t pairs = (uint64_t)bodies->robot_count * bodies->obstacle_count;
     *answers = (pir_answers){.allocator = pir_allocator_or_default(allocator), .bodies = *bodies};
+    answers->is_list = pir_grid_get_info(bodies->grid).kind == PIR_GRID_LIST;
     answers->pair_count = pairs < PAIRS ? (uint32_t)pairs : PAIRS;
     pir_layout layout = layout_of(answers);
     if (!pir_layout_new(&answers->allocator, &layout)) {
@@ -73,7 +78,6 @@ struct asked {
     pir_rotation rotation;
     pir_answer_wish wish;
     double length; /* of the translation */
-    uint64_t nearest;
     pir_configuration configuration;
     double nearest_balls; /* the least gap between balls of two pieces so far */
     double gap;           /* of the pair of pieces that is nearest, as far as all are apart */
@@ -88,8 +92,8 @@ static pir_status get_pair(pir_answers *answers, uint32_t robot, uint32_t obstac
     if (!kept->pair) {
         pir_pair_options options = pir_pair_options_default();
         options.allocator = &answers->allocator;
-        status = pir_pair_create(answers->bodies.robot[robot], answers->bodies.obstacle[obstacle], &options,
-                                 &kept->pair);
+        status =
+            pir_pair_create(answers->bodies.robot[robot], answers->bodies.obstacle[obstacle], &options, &kept->pair);
     } else if (kept->made != number) {
         status = pir_pair_reset(kept->pair, answers->bodies.robot[robot], answers->bodies.obstacle[obstacle]);
     }
@@ -171,19 +175,23 @@ static pir_status ask_all(struct asked *asked) {
 static void find_nearest(struct asked *asked) {
     const pir_grid *grid = asked->answers->bodies.grid;
     uint64_t nearest[NEAREST];
-    const size_t count = pir_grid_nearest(grid, asked->pose->rotation, NEAREST, nearest);
-    asked->nearest = nearest[0];
-    for (size_t k = 0; k < count && !asked->configuration.on_grid; k++)
-        if (pir_same_rotation(asked->pose->rotation, pir_grid_rotation(grid, nearest[k]))) {
-            asked->nearest = nearest[k];
-            asked->configuration.on_grid = true;
+    const size_t most = asked->answers->is_list ? NEAREST : 1;
+    const size_t count = pir_grid_nearest(grid, asked->pose->rotation, most, nearest);
+    pir_configuration *known = &asked->configuration;
+    known->place.slice = nearest[0];
+    for (size_t k = 0; k < count; k++) {
+        const pir_quat at = pir_grid_rotation(grid, nearest[k]);
+        const pir_quat unit = pir_quat_unit(at);
+        // those that are not close, as nearly all, are not held against the pose's by integers
+        if (fabs(pir_quat_dot(asked->rotation.unit, unit)) > 1 - 1e-9 && pir_same_rotation(asked->pose->rotation, at)) {
+            known->place.slice = nearest[k];
+            known->on_grid = true;
+            known->turn = 0;
+            return;
         }
-    asked->configuration.place.slice = asked->nearest;
-    if (asked->configuration.on_grid)
-        return;
-    pir_rotation at;
-    pir_rotation_set(&at, pir_grid_rotation(grid, asked->nearest));
-    asked->configuration.turn = pir_rotation_angle_bound(asked->rotation.unit, at.unit);
+        if (k == 0)
+            known->turn = pir_rotation_angle_bound(asked->rotation.unit, unit);
+    }
 }
 
 pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_answer_wish wish, pir_report *report,

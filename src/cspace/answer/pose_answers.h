@@ -18,6 +18,7 @@ typedef struct pir_answers {
     pir_allocator allocator;
     pir_answered_bodies bodies;
     pir_piece_ball *robot, *obstacle;
+    bool is_list; /* the grid */
     pir_workspace *workspace;
     struct pir_kept_pair *pair; /* pose_answers.c */
     uint32_t pair_count;

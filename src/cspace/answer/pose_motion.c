@@ -97,7 +97,8 @@ static pir_status look_at(struct pose_motion *motion, const struct stretch *stre
     pir_configuration configuration;
     double gap;
     motion->asked++;
-    pir_status status = pir_answers_classify(motion->answers, &middle, PIR_WISH_GAP, motion->report, &configuration, &gap);
+    pir_status status =
+        pir_answers_classify(motion->answers, &middle, PIR_WISH_GAP, motion->report, &configuration, &gap);
     if (status != PIR_OK)
         return status;
     motion->blocked |= configuration.verdict == PIR_VERDICT_BLOCKED;
@@ -125,7 +126,8 @@ static pir_status look_at(struct pose_motion *motion, const struct stretch *stre
 static pir_status look_at_end(struct pose_motion *motion, const pir_pose *end) {
     pir_configuration configuration;
     double gap;
-    pir_status status = pir_answers_classify(motion->answers, end, PIR_WISH_VERDICT, motion->report, &configuration, &gap);
+    pir_status status =
+        pir_answers_classify(motion->answers, end, PIR_WISH_VERDICT, motion->report, &configuration, &gap);
     if (status == PIR_OK)
         motion->blocked |= configuration.verdict == PIR_VERDICT_BLOCKED;
     return status;
