@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pirouette configuration: whether a pose is free or blocked among the bodies of a file of slices; one pose, a motion between two,
- * or a file of poses.
+ * pirouette configuration: whether a pose is free or blocked among the bodies of a file of slices; one pose, a motion
+ * between two, or a file of poses.
  */
 #include <inttypes.h>
 #include <stdio.h>

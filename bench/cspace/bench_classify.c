@@ -2,7 +2,7 @@
 /*
  * Poses asked of files of slices, beside pairs. Usage: bench_classify FOLDER
  *
- * slices_classify.csv: for some scenes and levels, 100,000 poses about where bodies meet and as many in the window
+ * classify.csv: for some scenes and levels, 100,000 poses about where bodies meet and as many in the window
  * within 5 % of the size from contact. What a pose takes: alone, as the median; in one call, the verdict alone and all
  * that is known; and in a loop over a pair of the caller's own, three rounds in turn, the fastest of each counts. CPU
  * time, but of the median. `wrong` counts verdicts that are not the state by that loop, `resident_kib` is the most
@@ -209,11 +209,11 @@ int main(int argc, char **argv) {
         {"gs4 level 2", "shape:gs4", "shape:gs4", 0, 2, 1},
         {"gs4 level 3", "shape:gs4", "shape:gs4", 0, 3, 1},
     };
-    FILE *csv = results_open(&results, "slices_classify.csv");
+    FILE *csv = results_open(&results, "classify.csv");
     fprintf(csv, "scene,poses,count,median_ns,verdict_ns,whole_ns,pairs_ns,wrong,resident_kib\n");
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
         measure(&scenes[i], results.folder, csv);
-    results_close(csv, "slices_classify.csv");
+    results_close(csv, "classify.csv");
     printf("results in %s\n", results.folder);
     return 0;
 }

@@ -211,9 +211,9 @@ SCENES = {
 SLICES = {
     "open": lambda r: short(r.slices_read.number("open_ns", scene="gs4 level 3", slices_per_key=64) / 1e6),
     "next": lambda r: us(r.slices_read.number("next_ns", scene="gs4 level 3", slices_per_key=64)),
-    "verdict": lambda r: between([float(row["verdict_ns"]) / 1000 for row in r.slices_classify.rows]),
+    "verdict": lambda r: between([float(row["verdict_ns"]) / 1000 for row in r.classify.rows]),
     "verdict_ratio": lambda r: between([float(row["verdict_ns"]) / float(row["pairs_ns"])
-                                        for row in r.slices_classify.rows]),
+                                        for row in r.classify.rows]),
 }
 
 

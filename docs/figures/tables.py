@@ -295,9 +295,9 @@ def grid(r):
                      ">dispersion"], rows)
 
 
-def slices_classify(r):
+def classify(r):
     rows = []
-    for row in r.slices_classify.rows:
+    for row in r.classify.rows:
         bodies, level = row["scene"].split(" level ")
         title = {"cubes": "two cubes", "dodecahedron sphere": "a dodecahedron and a sphere of 42 vertices"}
         rows.append([title.get(bodies, "gs4, gs4"), level, row["poses"], *(f"{float(row[key]) / 1000:.2f}" for key in
@@ -350,4 +350,4 @@ def solid_depth(r):
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
     scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid,
-    slices_classify, solids, solid_query, solid_depth)}
+    classify, solids, solid_query, solid_depth)}

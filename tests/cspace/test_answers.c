@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Poses and motions answered for slices, against exact answers: those of differences made at each pose's rotation for
- * all, those of the brute oracle for some. PIR_TEST_POSES poses and PIR_TEST_MOTIONS motions are asked in all, at levels up to PIR_TEST_LEVEL.
+ * all, those of the brute oracle for some. PIR_TEST_POSES poses and PIR_TEST_MOTIONS motions are asked in all, at
+ * levels up to PIR_TEST_LEVEL.
  */
 #include "support/test.h"
 
@@ -255,7 +256,7 @@ static void a_motion_tells_where(void **state) {
     assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &motion), PIR_OK);
     assert_int_equal(motion.verdict, PIR_VERDICT_BLOCKED);
     printf("# through a cube: not proven free from %.4f to %.4f\n", motion.from, motion.to);
-    // two unit cubes meet at x = −1, a third of the way, and part at two thirds; what is left open is a last half of a stretch
+    // two unit cubes meet at x = −1, a third of the way, and part at two thirds
     assert_true(motion.from <= 1.0 / 3 && motion.from > 0.29 && motion.to >= 2.0 / 3 && motion.to < 0.71);
     from.translation.y = to.translation.y = 1.5;
     assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &motion), PIR_OK);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Poses and motions asked of files: the answers are those of the bodies without a file, many at once those of one by one, and
- * files that were cut short or changed are refused or answer rightly.
+ * Poses and motions asked of files: the answers are those of the bodies without a file, many at once those of
+ * one by one, and files that were cut short or changed are refused or answer rightly.
  */
 #include "support/test.h"
 
