@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * pirouette configuration: whether a pose is free or blocked, by the slices of a file; one pose, a motion between two,
- * or a file of poses.
+ * pirouette configuration: whether a pose is free or blocked among the bodies of a file of slices; one pose, a motion
+ * between two, or a file of poses.
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -187,23 +187,60 @@ static void write_row(FILE *out, const pir_pose *pose, const pir_configuration *
             answer->place.slice, answer->turn);
 }
 
+/* Answers of a call; between calls progress is shown and an interrupt heard. */
+#define CHUNK 512
+struct answers {
+    uint8_t verdict[CHUNK], status[CHUNK], state[CHUNK], on_grid[CHUNK];
+    uint32_t robot[CHUNK], obstacle[CHUNK];
+    uint64_t slice[CHUNK];
+    double turn[CHUNK];
+};
+
+static pir_configuration answer_of(const struct answers *answers, size_t i) {
+    return (pir_configuration){(pir_verdict)answers->verdict[i],
+                               {answers->robot[i], answers->obstacle[i], answers->slice[i]},
+                               answers->on_grid[i] != 0,
+                               (pir_state)answers->state[i],
+                               answers->turn[i]};
+}
+
+/* Answers the next poses and writes them, up to one that is bad. False after a complaint. */
+static bool answer_chunk(const struct args *args, pir_cspace *cspace, struct batch *batch) {
+    static struct answers answers;
+    const pir_cspace_arrays to = {answers.verdict, answers.status,   answers.state, answers.on_grid,
+                                  answers.robot,   answers.obstacle, answers.slice, answers.turn};
+    const pir_pose *poses = batch->poses + batch->done;
+    const size_t left = batch->count - batch->done, count = left < CHUNK ? left : CHUNK;
+    const pir_pose_array array = {&poses->rotation.x, sizeof *poses, &poses->translation.x, sizeof *poses, false};
+    pir_report report = {0};
+    pir_pair_batch_summary summary;
+    pir_status status = pir_cspace_classify_many(cspace, &array, count, &to, &report, &summary);
+    const size_t good = status == PIR_OK ? summary.first_bad : 0;
+    for (size_t i = 0; i < good; i++) {
+        const pir_configuration answer = answer_of(&answers, i);
+        write_row(batch->out.stream, &poses[i], &answer);
+        batch->counts[answer.verdict]++;
+    }
+    batch->done += good;
+    if (status == PIR_OK && good == count)
+        return true;
+    if (status == PIR_OK) {
+        // one pose says what is wrong with it
+        pir_configuration answer;
+        status = pir_cspace_classify(cspace, &poses[good], &report, &answer);
+    }
+    complain_row(args, batch->done + 1, status, &report);
+    return false;
+}
+
 /* Answers all poses, or as many as there was time for. False after a complaint. */
 static bool answer_all(const struct args *args, pir_cspace *cspace, struct batch *batch) {
     struct progress progress = progress_new(batch->count);
     interrupt_put_off(true);
     fprintf(batch->out.stream, "x,y,z,w,tx,ty,tz,verdict,state,robot,obstacle,slice,turn\n");
     bool good = true;
-    for (; good && batch->done < batch->count && !interrupt_asked(); batch->done += good) {
-        pir_configuration answer;
-        pir_report report = {0};
-        pir_status status = pir_cspace_classify(cspace, &batch->poses[batch->done], &report, &answer);
-        good = status == PIR_OK;
-        if (good) {
-            write_row(batch->out.stream, &batch->poses[batch->done], &answer);
-            batch->counts[answer.verdict]++;
-        } else {
-            complain_row(args, batch->done + 1, status, &report);
-        }
+    while (good && batch->done < batch->count && !interrupt_asked()) {
+        good = answer_chunk(args, cspace, batch);
         progress_show(&progress, batch->done);
     }
     interrupt_put_off(false);

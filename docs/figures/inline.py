@@ -211,15 +211,10 @@ SCENES = {
 SLICES = {
     "open": lambda r: short(r.slices_read.number("open_ns", scene="gs4 level 3", slices_per_key=64) / 1e6),
     "next": lambda r: us(r.slices_read.number("next_ns", scene="gs4 level 3", slices_per_key=64)),
-    "spacing_power": lambda r: between([a / b for a, b in falls(r)]),
+    "verdict": lambda r: between([float(row["verdict_ns"]) / 1000 for row in r.classify.rows]),
+    "verdict_ratio": lambda r: between([float(row["verdict_ns"]) / float(row["pairs_ns"])
+                                        for row in r.classify.rows]),
 }
-
-
-def falls(r):
-    """Shares of unknown poses at a level and the next one, while both can be counted."""
-    for world in range(5):
-        rows = [int(row["unknown"]) for row in r.answers.all(world=world)]
-        yield from ((a, b) for a, b in zip(rows, rows[1:]) if b >= 5)
 
 
 def file_ns(scene):

@@ -62,12 +62,6 @@ def grid(build):
             [(*a.groups(), *b.groups()[1:]) for a, b in zip(turns, away)])
 
 
-def answers(build):
-    told = lines_of(build, "cspace/cspace_answers", PIR_TEST_POSES="200000", PIR_TEST_LEVEL="4", PIR_TEST_MOTIONS="0")
-    rows = found(told, r"world (\d+), level (\d+): (\d+) poses, .* (\d+) unknown")
-    return "world,level,poses,unknown", [row.groups() for row in rows]
-
-
 def coverage(build):
     told = subprocess.run([sys.executable, "-B", HERE.parents[1] / "tests/docs/coverage.py",
                            build / "coverage/coverage.json"], cwd=HERE.parents[1], capture_output=True, text=True)
@@ -75,7 +69,7 @@ def coverage(build):
     return "part,reached,lines", [row.groups() for row in rows]
 
 
-TABLES = {function.__name__: function for function in (extremes, histories, large, grid, answers, coverage)}
+TABLES = {function.__name__: function for function in (extremes, histories, large, grid, coverage)}
 
 
 def main(build, *names):

@@ -295,17 +295,15 @@ def grid(r):
                      ">dispersion"], rows)
 
 
-def answers(r):
-    worlds = ("two cubes", "a dodecahedron and a sphere of 42 vertices",
-              "an icosahedron and a box, far from their origins", "an L of two boxes, two walls and an octahedron",
-              "a flat square, a rod and a tetrahedron")
-
-    def share(row):
-        unknown = int(row["unknown"]) / int(row["poses"])
-        return "0" if unknown == 0 else percent(unknown, 1 if unknown >= 0.0995 else 2)
-
-    rows = [[title, *(share(row) for row in r.answers.all(world=k))] for k, title in enumerate(worlds)]
-    return markdown(["bodies", ">level 0", ">1", ">2", ">3", ">4"], rows)
+def classify(r):
+    rows = []
+    for row in r.classify.rows:
+        bodies, level = row["scene"].split(" level ")
+        title = {"cubes": "two cubes", "dodecahedron sphere": "a dodecahedron and a sphere of 42 vertices"}
+        rows.append([title.get(bodies, "gs4, gs4"), level, row["poses"], *(f"{float(row[key]) / 1000:.2f}" for key in
+                     ("verdict_ns", "whole_ns", "median_ns", "pairs_ns")), row["wrong"]])
+    return markdown(["bodies", ">level", "poses", ">verdicts", ">all", ">alone, median", ">a loop over a pair",
+                     ">wrong"], rows)
 
 
 # ---- solids.md -------------------------------------------------------------------------------------------------------
@@ -351,5 +349,5 @@ def solid_depth(r):
 
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
-    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid, answers,
-    solids, solid_query, solid_depth)}
+    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid,
+    classify, solids, solid_query, solid_depth)}

@@ -41,6 +41,19 @@ PAGES = {
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
 
 
+def contents(header):
+    """A table of the functions of a header, each with the first sentence that is said of it."""
+    rows, told = [], ""
+    for item in header.items:
+        if item.kind != "function":
+            continue
+        told = item.text or told  # one comment may stand for several
+        first = re.split(r"(?<=[.:])\s", told.strip(), maxsplit=1)[0]
+        name = f'<a href="#{item.name}">{item.name}</a>'
+        rows.append(f"<tr><td>{name}</td><td>{html.escape(first, quote=False)}</td></tr>")
+    return f'<div class="table"><table class="contents">{"".join(rows)}</table></div>' if rows else ""
+
+
 class Site:
     def __init__(self, out):
         self.out = out
@@ -119,7 +132,7 @@ class Site:
 
     def note(self, title, address, kind, text):
         words = html.unescape(re.sub(r"<[^>]+>", " ", text)).split()
-        self.entries.append([title, address, kind, " ".join(words)[:300]])
+        self.entries.append([title, address, kind, " ".join(words)])
 
     # ---- kinds of pages
 
@@ -168,7 +181,8 @@ class Site:
 
     def write_header(self, header):
         here = f"api/{header.name[:-2]}.html"
-        out = [f"<h1>&lt;pirouette/{header.name}&gt;</h1>", header.description]
+        out = [f"<h1>&lt;pirouette/{header.name}&gt;</h1>", header.description, contents(header)]
+        self.note(header.name, here, "Reference", header.description)
         headings, blocks = [], []
         for item in header.items:  # functions under one comment stand together
             if blocks and item.kind == "function" and item.text and blocks[-1][0].text == item.text:
@@ -181,7 +195,8 @@ class Site:
             for item in block:
                 headings.append((2, item.name, item.name))
                 out.append(f'<h2 id="{item.name}">{item.name}</h2>')
-                self.note(item.name, f"{here}#{item.name}", header.name, item.text)
+                told = [body for _, body in [*first.parameters, *first.sections.items()] if body]
+                self.note(item.name, f"{here}#{item.name}", header.name, " ".join([item.text or first.text, *told]))
             signature = "\n".join(html.escape(item.signature, quote=False) + ("" if item.kind == "define" else ";")
                                   for item in block)
             out += [f'<pre><code class="c">{signature}</code></pre>', first.description]

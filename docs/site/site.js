@@ -7,18 +7,50 @@
     const LIMIT = 30;
     let chosen = -1;
 
-    function score([title, , , text], query, words) {
-        const name = title.toLowerCase(), all = name + " " + text.toLowerCase();
-        if (!words.every(word => all.includes(word)))
-            return 0;
+    const SHOWN = 300;
+    /* Words that people use for what has another name here. */
+    const SYNONYMS = {
+        aabb: ["box"], angle: ["turn", "rotation"], batch: ["many poses"], bvh: ["tree"], ccd: ["time_of_impact"],
+        collide: ["overlap"], collision: ["contact", "overlap"], concave: ["solid"], convexhull: ["polytope_create"],
+        cspace: ["configuration space"], determinism: ["same bits"], distance: ["separation"], epa: ["penetration"],
+        gjk: ["pair_distance"], heightmap: ["height_field", "height field"], hull: ["polytope"], intersect: ["overlap"],
+        intersection: ["overlap"], manifold: ["contacts"], minkowski: ["sum"], numpy: ["python"], nonconvex: ["solid"],
+        overlap: ["intersect"], penetration: ["depth"], quaternion: ["rotation", "quat"], raycast: ["ray", "cast"],
+        serialize: ["snapshot", "save"], shapecast: ["cast"], sweep: ["cast"], terrain: ["height field", "mesh"],
+        toi: ["time_of_impact"], transform: ["pose"], trigger: ["sensor"], triangle: ["trimesh"], trimesh: ["mesh"],
+        world: ["scene"],
+    };
+
+    function meant(word) {
+        return [word, ...(Object.hasOwn(SYNONYMS, word) ? SYNONYMS[word] : [])];
+    }
+
+    /* What is said is folded once. */
+    const folded = ENTRIES.map(([title, , , text]) => ({name: title.toLowerCase(), text: text.toLowerCase()}));
+
+    function score({name, text}, query, words) {
         if (name === query)
+            return 9;
+        if (name.startsWith(query))
+            return 8;
+        if (name.includes(query))
+            return 7;
+        if (words.every(word => name.includes(word[0])))
+            return 6;
+        if (words.every(word => word.some(other => name.includes(other))))
             return 5;
-        return name.startsWith(query) ? 4 : name.includes(query) ? 3 : words.every(word => name.includes(word)) ? 2 : 1;
+        if (text.includes(query))
+            return text.indexOf(query) < SHOWN ? 4 : 3;
+        const both = name + " " + text;
+        if (words.every(word => both.includes(word[0])))
+            return 2;
+        return words.every(word => word.some(other => both.includes(other))) ? 1 : 0;
     }
 
     function search(query) {
-        const words = query.split(/\s+/);
-        return ENTRIES.map(entry => ({entry, points: score(entry, query, words)})).filter(hit => hit.points > 0)
+        const words = query.split(/\s+/).map(meant);
+        return ENTRIES.map((entry, i) => ({entry, points: score(folded[i], query, words)}))
+            .filter(hit => hit.points > 0)
             .sort((a, b) => b.points - a.points || a.entry[0].length - b.entry[0].length).slice(0, LIMIT);
     }
 
@@ -26,7 +58,7 @@
         const [item, link, more] = ["li", "a", "small"].map(name => document.createElement(name));
         link.href = top + address;
         link.append(title);
-        more.append(kind + (text ? ": " + text : ""));
+        more.append(kind + (text ? ": " + text.slice(0, SHOWN) : ""));
         link.append(more);
         item.append(link);
         return item;

@@ -23,7 +23,7 @@
 #include <pirouette/base.h>
 #include <pirouette/grid.h>
 #include <pirouette/mesh.h>
-#include <pirouette/pair.h>
+#include <pirouette/pair_batch.h>
 #include <pirouette/polytope.h>
 #include <pirouette/query.h>
 #include <pirouette/sum.h>
@@ -339,7 +339,7 @@ PIR_API pir_status pir_cspace_mesh(pir_cspace *cspace, pir_cspace_place place, p
 
 /** Knowledge of a pose, or of a motion. Never wrong: what is not proven is unknown. */
 typedef enum pir_verdict {
-    PIR_VERDICT_UNKNOWN = 0, /**< neither is proven */
+    PIR_VERDICT_UNKNOWN = 0, /**< neither is proven: of motions alone */
     PIR_VERDICT_FREE,        /**< no piece of the robot overlaps or touches an obstacle's */
     PIR_VERDICT_BLOCKED,     /**< some piece of the robot overlaps or touches an obstacle's */
 } pir_verdict;
@@ -347,36 +347,71 @@ typedef enum pir_verdict {
 /** The answer for one pose. */
 typedef struct pir_configuration {
     pir_verdict verdict;
-    pir_cspace_place place; /**< the slice that the answer rests on; of a free pose the least certain pair's */
-    bool on_grid;           /**< whether the rotation is that of a slice, and `state` is exact */
-    pir_state state;        /**< the most overlapping state over all piece pairs; with on_grid alone */
-    double turn;            /**< radians, rounded up, from the slice's rotation to the pose's */
+    /**
+     * The slice of the nearest rotation; of a blocked pose the first pair of pieces that is, of a free one that whose
+     * balls come nearest.
+     */
+    pir_cspace_place place;
+    bool on_grid;    /**< whether the rotation is that of a slice */
+    pir_state state; /**< the most overlapping state over all piece pairs; with on_grid alone */
+    double turn;     /**< radians, rounded up, from the slice's rotation to the pose's */
 } pir_configuration;
 
 /**
- * Classifies a pose by the slices of the nearest rotations.
+ * Classifies a pose: free or blocked, exactly, at the very doubles of the pose.
  *
- * At the rotation of a slice (a quaternion that is a multiple of the grid's) the state is exact; where a list has five
- * rotations or more within 1e-7 of each other, the slice may not be found among them, and the pose is answered as one
- * beside it. There, four proofs are tried on the four nearest slices: balls around the pieces that are apart; the
- * distance or depth at the slice, where it exceeds what any point of the piece moves by between the two rotations; a
- * direction of the slice that separates at the pose; a facet of the slice that, carried to the pose, covers the
- * translation together with a ball that lies in the difference. What none of them proves is unknown: the pose is nearer
- * to contact than the grid is fine. The share of such poses shrinks faster than the grid's spacing; docs/slices.md has
- * figures. pair.h answers all poses, without slices.
+ * Balls around the pieces that are apart are tried first, then pairs by need (pair.h) of the file's pieces. No slice is
+ * read, as a pair is asked in less time than a slice takes to read or to make; docs/slices.md has figures, and says
+ * when slices pay. At the rotation of a slice (a quaternion that is a multiple of the grid's) the state is told too;
+ * where a list has five rotations or more within 1e-7 of each other, the slice may not be found among them, and the
+ * pose is answered as one beside it.
  *
  * pose    of the robot.
  * report  NULL, or filled when the call fails.
  *
- * Up to 256 slices, or 16 for each piece pair if that is more, are kept between calls.
+ * Up to 1024 pairs of pieces are kept between calls, with what their last answers needed.
  *
- * Cost: a query for each pair of pieces whose balls meet, O(log n) steps when warm, O(vertices) near contact; for a
- * slice that is not kept, that of pir_cspace_sum.
+ * Cost: a query of a pair for each pair of pieces whose balls meet, until one is blocked; finding the nearest rotation.
  *
- * Errors: those of pir_cspace_sum; PIR_ERR_NOT_FINITE and PIR_ERR_ZERO_QUATERNION of the pose.
+ * Errors: PIR_ERR_ARGUMENT, those of queries of a pair; PIR_ERR_NOT_FINITE and PIR_ERR_ZERO_QUATERNION of the pose.
  */
 PIR_API pir_status pir_cspace_classify(pir_cspace *cspace, const pir_pose *pose, pir_report *report,
                                        pir_configuration *ret_configuration);
+
+/**
+ * Where the answers of many poses go: arrays of the caller's with an element for each pose, or NULL for what is not
+ * wanted. Elements touch. Without `state`, `on_grid`, `slice` and `turn` the nearest rotation is not looked for, which
+ * takes most of the time of a pose that balls part.
+ */
+typedef struct pir_cspace_arrays {
+    uint8_t *verdict; /**< a pir_verdict, or PIR_POSE_BAD */
+    uint8_t *status;  /**< a pir_status: PIR_OK, or why the pose is bad */
+    uint8_t *state;   /**< as of pir_configuration, this and the next; 0 off the grid; or PIR_POSE_BAD */
+    uint8_t *on_grid;
+    uint32_t *robot, *obstacle; /**< of its `place`; of a bad pose 0 */
+    uint64_t *slice;
+    double *turn; /**< of a bad pose NaN */
+} pir_cspace_arrays;
+
+/**
+ * Classifies many poses. Each answer is that of pir_cspace_classify, whatever comes before it. A pose that is bad (not
+ * finite, a quaternion of zeros, out of range, one that memory ran out at) is told by its index; all others are
+ * answered.
+ *
+ * poses        of the robot, as arrays (pair_batch.h).
+ * count        how many there are.
+ * arrays       where the answers go.
+ * report       NULL, or filled when the call fails.
+ * ret_summary  NULL, or how many poses are bad.
+ *
+ * Cost: that of pir_cspace_classify for each pose; in order of a motion less than at random.
+ *
+ * Errors: PIR_ERR_ARGUMENT (NULL, a stride that is no multiple of 8 or shorter than an element), PIR_ERR_MEMORY. The
+ * arrays are then untouched.
+ */
+PIR_API pir_status pir_cspace_classify_many(pir_cspace *cspace, const pir_pose_array *poses, size_t count,
+                                            const pir_cspace_arrays *arrays, pir_report *report,
+                                            pir_pair_batch_summary *ret_summary);
 
 /** The answer for a motion from one pose to another. */
 typedef struct pir_cspace_motion {

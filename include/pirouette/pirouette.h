@@ -34,11 +34,13 @@
 #include <pirouette/shape.h>
 #include <pirouette/simplify.h>
 #include <pirouette/solid.h>
+#include <pirouette/solid_batch.h>
 #include <pirouette/solid_contact.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
 #include <pirouette/tasks.h>
 #include <pirouette/trimesh.h>
+#include <pirouette/trimesh_batch.h>
 #include <pirouette/trimesh_contact.h>
 #include <pirouette/trimesh_pair.h>
 #include <pirouette/version.h>

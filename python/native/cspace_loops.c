@@ -6,18 +6,6 @@ static pir_pose pose(const double *numbers) {
     return (pir_pose){{numbers[0], numbers[1], numbers[2], numbers[3]}, {numbers[4], numbers[5], numbers[6]}};
 }
 
-pir_status py_cspace_classify(pir_cspace *cspace, const double *poses, size_t count, pir_report *report,
-                              pir_configuration *ret_configurations, size_t *ret_done) {
-    pir_status status = PIR_OK;
-    size_t i = 0;
-    for (; i < count && status == PIR_OK; i += status == PIR_OK) {
-        const pir_pose asked = pose(poses + 7 * i);
-        status = pir_cspace_classify(cspace, &asked, report, &ret_configurations[i]);
-    }
-    *ret_done = i;
-    return status;
-}
-
 pir_status py_cspace_segments(pir_cspace *cspace, const double *poses, size_t count, pir_report *report,
                               pir_cspace_motion *ret_motions, size_t *ret_done) {
     pir_status status = PIR_OK;

@@ -6,8 +6,6 @@
 #include <pirouette/cspace.h>
 
 /* cffi: begin */
-pir_status py_cspace_classify(pir_cspace *cspace, const double *poses, size_t count, pir_report *report,
-                              pir_configuration *ret_configurations, size_t *ret_done);
 pir_status py_cspace_segments(pir_cspace *cspace, const double *poses, size_t count, pir_report *report,
                               pir_cspace_motion *ret_motions, size_t *ret_done);
 /* cffi: end */

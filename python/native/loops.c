@@ -203,20 +203,6 @@ static pir_pose pose(const double *numbers) {
     return (pir_pose){{numbers[0], numbers[1], numbers[2], numbers[3]}, vector(numbers + 4)};
 }
 
-pir_status py_solid_depths(pir_solid_query *query, pir_workspace *workspace, const double *poses, size_t count,
-                           pir_solid_depth *ret_depths, size_t *ret_done) {
-    pir_pair_input input = pir_pair_input_default();
-    pir_status status = PIR_OK;
-    size_t i = 0;
-    for (; i < count && status == PIR_OK; i += status == PIR_OK) {
-        input.pose_p = pose(poses + 14 * i);
-        input.pose_q = pose(poses + 14 * i + 7);
-        status = pir_solid_query_depth(query, workspace, &input, &ret_depths[i]);
-    }
-    *ret_done = i;
-    return status;
-}
-
 pir_status py_solid_contacts(pir_solid_contacts *contacts, pir_workspace *workspace, const double *poses, size_t count,
                              double margin, py_contact_room *room) {
     pir_pair_input input = pir_pair_input_default();
@@ -283,16 +269,6 @@ pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double
     input.pose_p = pose(pose_p);
     input.pose_q = pose(pose_q);
     return pir_pair_time_of_impact(pair, workspace, &input, motion, tolerance, ret_impact);
-}
-
-pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
-                                pir_trimesh_distance *ret_distances, size_t *ret_done) {
-    pir_status status = PIR_OK;
-    size_t i = 0;
-    for (; i < count && status == PIR_OK; i += status == PIR_OK)
-        status = pir_trimesh_pair_nearest(pair, pose(poses + 14 * i), pose(poses + 14 * i + 7), &ret_distances[i]);
-    *ret_done = i;
-    return status;
 }
 
 pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,

@@ -36,8 +36,6 @@ pir_status py_surface_nearest(const pir_trimesh *mesh, const pir_height_field *f
                               double cutoff, size_t count, pir_surface_nearest *ret_nearest, size_t *ret_done);
 size_t py_scene_contact_count(const pir_scene *scene);
 void py_scene_contacts(const pir_scene *scene, uint64_t *ret_starts, pir_contact *ret_contacts);
-pir_status py_solid_depths(pir_solid_query *query, pir_workspace *workspace, const double *poses, size_t count,
-                           pir_solid_depth *ret_depths, size_t *ret_done);
 /* Room for contacts of poses one after another. */
 typedef struct py_contact_room {
     size_t capacity;
@@ -62,8 +60,6 @@ pir_status py_pair_active(pir_pair *pair, pir_workspace *workspace, const double
 pir_status py_plan_write(const pir_path_plan *plan, const char *path);
 pir_status py_pair_impact(pir_pair *pair, pir_workspace *workspace, const double *pose_p, const double *pose_q,
                           const pir_motion *motion, double tolerance, pir_impact *ret_impact);
-pir_status py_mesh_pair_nearest(pir_trimesh_pair *pair, const double *poses, size_t count,
-                                pir_trimesh_distance *ret_distances, size_t *ret_done);
 pir_status py_pair_escapes(pir_pair *pair, pir_workspace *workspace, const double *poses, double slack, size_t capacity,
                            pir_escape *ret_escapes, size_t *ret_count);
 pir_status py_polytope_write(const pir_polytope *polytope, const char *path, bool exact, pir_report *report);

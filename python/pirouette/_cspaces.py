@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ._arrays import Bools, Bytes, Floats, dtype_of, path_of, pointer, poses, rows, vector, whole
 from ._check import Error, Handle, check, error
 from ._native import ffi, lib
-from ._pairs import pairs_of_poses
+from ._pairs import pairs_of_poses, set_poses
 from ._polytopes import Body, Mesh, Polytope, as_polytope
 from ._solids import Pieces, Solid
 
@@ -21,9 +21,9 @@ Bodies = Union[Body, Solid, Pieces, Sequence[Polytope]]
 
 
 class Configurations(NamedTuple):
-    """Answers at poses, never wrong: `verdict` is 0 unknown, 1 free, 2 blocked. Where the rotation is one of the grid,
-    `on_grid`, it is exact, and `state` is 0 outside, 1 touching, 2 overlapping. `robot`, `obstacle` and `slice` tell
-    what it rests on, `turn` the radians from there to the pose."""
+    """Answers at poses, exact: `verdict` is 1 free, 2 blocked. Where the rotation is one of the grid, `on_grid`,
+    `state` is 0 outside, 1 touching, 2 overlapping. `robot` and `obstacle` tell which pieces it rests on, `slice` the
+    nearest rotation, `turn` the radians from there to the pose."""
 
     verdict: Bytes
     state: Bytes
@@ -127,20 +127,24 @@ class CSpace(Handle):
         check(lib.pir_cspace_check(path_of(path), ffi.NULL, report), f"{path}", report)
 
     def classify(self, poses_: npt.ArrayLike) -> Configurations:
-        """Whether the robot is free at poses; those of one slice after another cost least."""
+        """Whether the robot is free at poses; in order of a motion they cost least."""
         array, shape = poses("poses", poses_)
-        found, done = np.empty(len(array), dtype_of("pir_configuration")), ffi.new("size_t *")
-        report = ffi.new("pir_report *")
+        count = len(array)
+        found = Configurations(np.empty(count, np.uint8), np.empty(count, np.uint8), np.empty(count, np.bool_),
+                               np.empty(count), np.empty(count, np.uint32), np.empty(count, np.uint32),
+                               np.empty(count, np.uint64))
+        asked, to = ffi.new("pir_pose_array *"), ffi.new("pir_cspace_arrays *")
+        set_poses(asked, array, False)
+        for name, kind in (("verdict", "uint8_t *"), ("state", "uint8_t *"), ("on_grid", "uint8_t *"),
+                           ("turn", "double *"), ("robot", "uint32_t *"), ("obstacle", "uint32_t *"),
+                           ("slice", "uint64_t *")):
+            setattr(to, name, pointer(getattr(found, name), kind))
+        report, summary = ffi.new("pir_report *"), ffi.new("pir_pair_batch_summary *")
         with self._held() as cspace:
-            status = lib.py_cspace_classify(cspace, pointer(array), len(array), report,
-                                            pointer(found, "pir_configuration *"), done)
-        if status != lib.PIR_OK:
-            raise error(status, f"poses[{done[0]}]", report)
-        found = found.reshape(shape)
-        on_grid, place = found["on_grid"].copy(), found["place"]
-        return Configurations(found["verdict"].astype(np.uint8),
-                              np.where(on_grid, found["state"], 0).astype(np.uint8), on_grid, found["turn"].copy(),
-                              place["robot"].copy(), place["obstacle"].copy(), place["slice"].copy())
+            check(lib.pir_cspace_classify_many(cspace, asked, count, to, report, summary), "poses", report)
+        if summary.bad:
+            raise error(summary.first_status, f"poses[{summary.first_bad}]")
+        return Configurations(*(values.reshape(shape) for values in found))
 
     def segment(self, a: npt.ArrayLike, b: npt.ArrayLike) -> Segments:
         """Whether the robot is free all along motions from poses `a` to poses `b`: straight, turning evenly the shorter

@@ -12,7 +12,7 @@ from ._arrays import (Bytes, Floats, Indices, dtype_of, fail_at, indices, number
                       whole)
 from ._check import Handle, InputError, check
 from ._native import ffi, lib
-from ._pairs import pairs_of_poses
+from ._pairs import both, pairs_of_poses, set_poses
 from ._polytopes import Mesh, Polytope
 
 
@@ -242,10 +242,10 @@ class SolidPair(Handle):
 
     def __init__(self, p: Union[Solid, Pieces], q: Union[Solid, Pieces]) -> None:
         self._pieces: Tuple[Pieces, Pieces] = (_cut(p), _cut(q))
-        made, scratch = ffi.new("pir_solid_query **"), ffi.new("pir_workspace **")
+        made, scratch = ffi.new("pir_solid_query_batch **"), ffi.new("pir_workspace **")
         with self._both() as (a, b):
-            check(lib.pir_solid_query_create(a, b, ffi.NULL, made), "SolidPair")
-        super().__init__(made[0], lib.pir_solid_query_destroy)
+            check(lib.pir_solid_query_batch_create(a, b, ffi.NULL, made), "SolidPair")
+        super().__init__(made[0], lib.pir_solid_query_batch_destroy)
         check(lib.pir_workspace_create(ffi.NULL, scratch), "SolidPair")
         self._workspace = ffi.gc(scratch[0], lib.pir_workspace_destroy)
         self._contacts: Any = None
@@ -262,17 +262,22 @@ class SolidPair(Handle):
 
     def depth(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None) -> Depths:
         """As of `Solid.depth`."""
-        posed, shape = pairs_of_poses(poses_p, poses_q)
-        count = len(posed)
-        found = np.zeros(count, dtype_of("pir_solid_depth"))
-        done = ffi.new("size_t *")
-        with self._held() as query:
-            status = lib.py_solid_depths(query, self._workspace, pointer(posed), count,
-                                         pointer(found, "pir_solid_depth *"), done)
-        fail_at(status, "poses_p or poses_q", done[0])
-        found = found.reshape(shape)
-        return Depths(found["state"].astype(np.uint8), found["depth"].copy(), found["normal"].copy(),
-                      found["point_p"].copy(), found["point_q"].copy())
+        p, q, shape = both(poses_p, poses_q)
+        count = shape[0] if shape else 1
+        found = Depths(np.empty(count, np.uint8), np.empty(count), *(np.empty((count, 3)) for _ in range(3)))
+        asked = ffi.new("pir_pair_batch_input *", lib.pir_pair_batch_input_default())
+        set_poses(asked.poses_p, p, len(p) != count)
+        if q is not None:
+            set_poses(asked.poses_q, q, len(q) != count)
+        to, summary = ffi.new("pir_solid_query_batch_arrays *"), ffi.new("pir_pair_batch_summary *")
+        to.state, to.distance = pointer(found.state, "uint8_t *"), pointer(found.depth)
+        for name in ("normal", "point_p", "point_q"):
+            setattr(to, name, pointer(getattr(found, name), "double(*)[3]"))
+        with self._held() as batch:
+            check(lib.pir_solid_query_batch_depth(batch, asked, count, to, summary), "depth")
+        if summary.bad:
+            fail_at(summary.first_status, "poses_p or poses_q", summary.first_bad)
+        return Depths(*(values.reshape(shape + values.shape[1:]) for values in found))
 
     def contacts(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None, *,
                  margin: float = 0.0) -> SolidContacts:

@@ -12,7 +12,7 @@ from ._arrays import (Bools, Bytes, Floats, Indices, dtype_of, fail_at, floats, 
                       vectors)
 from ._check import Handle, InputError, check
 from ._native import ffi, lib
-from ._pairs import pairs_of_poses
+from ._pairs import both, pairs_of_poses, set_poses
 
 
 class RayHits(NamedTuple):
@@ -195,20 +195,30 @@ class MeshPair(Handle):
         made = ffi.new("pir_trimesh_pair **")
         check(lib.pir_trimesh_pair_create(p._mesh, q._mesh, ffi.NULL, made), "MeshPair")
         super().__init__(made[0], lib.pir_trimesh_pair_destroy)
+        many = ffi.new("pir_trimesh_pair_batch **")
+        check(lib.pir_trimesh_pair_batch_create(p._mesh, q._mesh, ffi.NULL, many), "MeshPair")
+        self._many = ffi.gc(many[0], lib.pir_trimesh_pair_batch_destroy)
         self.p, self.q = p, q
 
     def nearest(self, poses_p: npt.ArrayLike, poses_q: Optional[npt.ArrayLike] = None) -> MeshDistances:
         """States, least distances, and the triangles and points that have them; which these are is exact."""
-        posed, shape = pairs_of_poses(poses_p, poses_q)
-        found, done = np.empty(len(posed), dtype_of("pir_trimesh_distance")), ffi.new("size_t *")
-        with self._held() as pair:
-            status = lib.py_mesh_pair_nearest(pair, pointer(posed), len(posed),
-                                              pointer(found, "pir_trimesh_distance *"), done)
-        fail_at(status, "poses_p or poses_q", done[0])
-        found = found.reshape(shape)
-        return MeshDistances(found["state"].astype(np.uint8), found["distance"].copy(),
-                             found["triangle_p"].astype(np.uint32), found["triangle_q"].astype(np.uint32),
-                             found["point_p"].copy(), found["point_q"].copy())
+        p, q, shape = both(poses_p, poses_q)
+        count = shape[0] if shape else 1
+        found = MeshDistances(np.empty(count, np.uint8), np.empty(count), np.empty(count, np.uint32),
+                              np.empty(count, np.uint32), np.empty((count, 3)), np.empty((count, 3)))
+        asked = ffi.new("pir_trimesh_pair_batch_input *")
+        set_poses(asked.poses_p, p, len(p) != count)
+        if q is not None:
+            set_poses(asked.poses_q, q, len(q) != count)
+        to, summary = ffi.new("pir_trimesh_pair_batch_arrays *"), ffi.new("pir_pair_batch_summary *")
+        for name, kind in (("state", "uint8_t *"), ("distance", "double *"), ("triangle_p", "uint32_t *"),
+                           ("triangle_q", "uint32_t *"), ("point_p", "double(*)[3]"), ("point_q", "double(*)[3]")):
+            setattr(to, name, pointer(getattr(found, name), kind))
+        with self._held():
+            check(lib.pir_trimesh_pair_batch_nearest(self._many, asked, count, to, summary), "nearest")
+        if summary.bad:
+            fail_at(summary.first_status, "poses_p or poses_q", summary.first_bad)
+        return MeshDistances(*(values.reshape(shape + values.shape[1:]) for values in found))
 
     def within(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
                distance: float = 0.0) -> Indices:

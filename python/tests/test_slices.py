@@ -33,7 +33,7 @@ def least_states(space, poses):
 
 
 @needs_slices
-def test_slices_are_never_wrong(space):
+def test_classified_poses_are_never_wrong(space):
     path, space = space
     print("seed", SEED)
     random = np.random.default_rng(SEED)
@@ -41,10 +41,9 @@ def test_slices_are_never_wrong(space):
     poses[::5, :4] = [space.rotation(int(i)) for i in random.integers(0, len(space), 300)]
     found = space.classify(poses)
     states, _ = least_states(space, poses)
-    assert (states[found.verdict == pirouette.FREE] == pirouette.OUTSIDE).all()
-    assert (states[found.verdict == pirouette.BLOCKED] != pirouette.OUTSIDE).all()
+    assert np.array_equal(found.verdict == pirouette.FREE, states == pirouette.OUTSIDE)
     assert found.on_grid[::5].all() and np.array_equal(found.state[::5], states[::5])
-    assert {0, 1, 2} >= set(found.verdict.tolist()) >= {1, 2} and (found.verdict == 0).mean() < 0.3
+    assert set(found.verdict.tolist()) == {pirouette.FREE, pirouette.BLOCKED}
     one = space.classify(poses[7])
     assert one.verdict.shape == () and one.verdict == found.verdict[7]
     with pytest.raises(pirouette.InputError, match=r"poses\[1\]"):

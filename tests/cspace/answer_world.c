@@ -29,16 +29,6 @@ static pir_polytope *shape(const char *name, pir_vec3 offset) {
     return moved;
 }
 
-/* A slice is the sum itself. */
-static pir_status make_sum(void *context, pir_cspace_place place, pir_report *report, pir_sum **ret_sum) {
-    (void)report;
-    answer_world *world = context;
-    world->slices++;
-    const pir_sum_options options = {.size = sizeof options, .allocator = world->allocator, .difference = true};
-    return pir_sum_create(world->robot[place.robot], world->obstacle[place.obstacle],
-                          pir_grid_rotation(world->grid, place.slice), &options, ret_sum);
-}
-
 static void put(pir_polytope **pieces, uint32_t *count, const char *name, pir_vec3 offset) {
     pieces[(*count)++] = shape(name, offset);
 }
@@ -81,14 +71,8 @@ void answer_world_init(answer_world *world, int kind, pir_grid *grid) {
             double reach = pir_piece_ball_of(world->robot[k]).reach + pir_piece_ball_of(world->obstacle[l]).reach;
             world->size = fmax(world->size, reach);
         }
-    const pir_slice_source source = {grid,
-                                     (const pir_polytope *const *)world->robot,
-                                     (const pir_polytope *const *)world->obstacle,
-                                     world->robot_count,
-                                     world->obstacle_count,
-                                     make_sum,
-                                     world};
-    need(pir_answers_init(&world->answers, &source, NULL));
+    const pir_answered_bodies bodies = {grid, world->robot, world->obstacle, world->robot_count, world->obstacle_count};
+    need(pir_answers_init(&world->answers, &bodies, NULL));
 }
 
 void answer_world_finish(answer_world *world) {
@@ -149,6 +133,26 @@ pir_state answer_world_state(answer_world *world, const pir_pose *pose) {
         for (uint32_t l = 0; l < world->obstacle_count; l++) {
             pir_state state = ask_pair(world, k, l, pose).state;
             most = state > most ? state : most;
+        }
+    return most;
+}
+
+pir_state answer_world_sum_state(const answer_world *world, const pir_pose *pose) {
+    const pir_sum_options options = {.size = sizeof options, .allocator = NULL, .difference = true};
+    pir_state most = PIR_OUTSIDE;
+    for (uint32_t k = 0; k < world->robot_count; k++)
+        for (uint32_t l = 0; l < world->obstacle_count; l++) {
+            pir_sum *sum;
+            pir_query *query;
+            pir_query_result result;
+            pir_query_input input = pir_query_input_default();
+            input.translation = pose->translation;
+            need(pir_sum_create(world->robot[k], world->obstacle[l], pose->rotation, &options, &sum));
+            need(pir_query_create(sum, &query));
+            need(pir_query_overlap(query, &input, NULL, &result));
+            most = result.state > most ? result.state : most;
+            pir_query_destroy(query);
+            pir_sum_destroy(sum);
         }
     return most;
 }

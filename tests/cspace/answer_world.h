@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Robots, obstacles and grids to classify poses in, without a file: slices are sums made at once. Each pose is also
- * answered exactly, by pairs by need, which know no slices.
+ * Robots, obstacles and grids to classify poses in, without a file. Each pose is also answered by pairs by
+ * need with their numbers, and by the difference at its rotation, which no pair has a hand in.
  */
 #ifndef PIR_TEST_ANSWER_WORLD_H
 #define PIR_TEST_ANSWER_WORLD_H
@@ -18,9 +18,7 @@ typedef struct answer_world {
     pir_pair *pair[WORLD_PIECES][WORLD_PIECES];
     pir_workspace *workspace;
     pir_answers answers;
-    const pir_allocator *allocator; /* of the sums that are slices */
-    double size;                    /* translations beyond it part the bodies */
-    uint64_t slices;                /* made so far */
+    double size; /* translations beyond it part the bodies */
 } answer_world;
 
 /* The worlds: a cube and a cube, two solids, two that are far from their origins, several pieces, flat ones. */
@@ -38,5 +36,8 @@ pir_pose answer_world_pose(answer_world *world, test_random *random);
 
 /* The exact state, the most overlapping one over all pairs of pieces. */
 pir_state answer_world_state(answer_world *world, const pir_pose *pose);
+
+/* The same by sums made at the pose's rotation. */
+pir_state answer_world_sum_state(const answer_world *world, const pir_pose *pose);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Poses and motions answered from slices, against exact answers: those of pairs by need for all, those of the brute
- * oracle for some. PIR_TEST_POSES poses and PIR_TEST_MOTIONS motions are asked in all, at levels up to PIR_TEST_LEVEL.
+ * Poses and motions answered for slices, against exact answers: those of differences made at each pose's rotation for
+ * all, those of the brute oracle for some. PIR_TEST_POSES poses and PIR_TEST_MOTIONS motions are asked in all, at
+ * levels up to PIR_TEST_LEVEL.
  */
 #include "support/test.h"
 
@@ -47,17 +48,36 @@ static pir_configuration classify(answer_world *world, const pir_pose *pose) {
     pir_configuration configuration;
     pir_report report = {0};
     double gap;
-    pir_status status = pir_answers_classify(&world->answers, pose, &report, &configuration, &gap);
+    pir_status status = pir_answers_classify(&world->answers, pose, PIR_WISH_PLACE, &report, &configuration, &gap);
     expect(status == PIR_OK && report.text[0] == '\0', "%s", report.text);
     return configuration;
 }
 
 static int is_right(pir_verdict verdict, pir_state state) {
-    return verdict == PIR_VERDICT_UNKNOWN || (verdict == PIR_VERDICT_FREE) == (state == PIR_OUTSIDE);
+    return verdict == (state == PIR_OUTSIDE ? PIR_VERDICT_FREE : PIR_VERDICT_BLOCKED);
 }
 
-/* Asks `count` poses of a world at a level; returns how many are unknown. */
-static uint32_t ask_poses(int kind, uint32_t level, uint32_t count) {
+/* What is wanted changes neither the verdict nor the pair of pieces; where all within the gap is free, it is so. */
+static void check_wishes(answer_world *world, const pir_pose *pose, const pir_configuration *answer) {
+    pir_configuration verdict, all;
+    double none, gap;
+    assert_int_equal(pir_answers_classify(&world->answers, pose, PIR_WISH_VERDICT, NULL, &verdict, &none), PIR_OK);
+    assert_int_equal(pir_answers_classify(&world->answers, pose, PIR_WISH_GAP, NULL, &all, &gap), PIR_OK);
+    assert_true(verdict.verdict == answer->verdict && all.verdict == answer->verdict);
+    assert_true(verdict.place.robot == answer->place.robot && all.place.robot == answer->place.robot);
+    assert_true(verdict.place.obstacle == answer->place.obstacle && all.place.obstacle == answer->place.obstacle);
+    assert_true(all.place.slice == answer->place.slice && all.turn == answer->turn && gap >= 0);
+    for (int k = 0; k < 6; k++) {
+        pir_pose moved = *pose;
+        double way = (k % 2 ? -1 : 1) * gap * (1 - 1e-12);
+        moved.translation.x += k / 2 == 0 ? way : 0;
+        moved.translation.y += k / 2 == 1 ? way : 0;
+        moved.translation.z += k / 2 == 2 ? way : 0;
+        assert_true(is_right(answer->verdict, answer_world_state(world, &moved)));
+    }
+}
+
+static void ask_poses(int kind, uint32_t level, uint32_t count) {
     answer_world world;
     answer_world_init(&world, kind, hopf(level));
     uint32_t verdicts[3] = {0, 0, 0};
@@ -65,9 +85,10 @@ static uint32_t ask_poses(int kind, uint32_t level, uint32_t count) {
         test_random random = test_random_case("poses", (uint64_t)kind << 32 | i);
         pir_pose pose = answer_world_pose(&world, &random);
         pir_configuration answer = classify(&world, &pose);
-        pir_state state = answer_world_state(&world, &pose);
+        pir_state state = answer_world_sum_state(&world, &pose);
         if (i % 50 == 0)
             assert_int_equal(brute_state(&world, &pose), state);
+        check_wishes(&world, &pose, &answer);
         expect(is_right(answer.verdict, state), "world %d level %u pose %u: verdict %d, state %d", kind, level, i,
                (int)answer.verdict, (int)state);
         assert_true(!answer.on_grid && answer.place.slice < pir_grid_get_info(world.grid).count);
@@ -75,32 +96,18 @@ static uint32_t ask_poses(int kind, uint32_t level, uint32_t count) {
         assert_true(answer.turn >= turn && answer.turn <= turn + 1e-6 + 0.02 * turn);
         verdicts[answer.verdict]++;
     }
-    printf("# world %d, level %u: %u poses, %u free, %u blocked, %u unknown (%.3f %%), %llu slices\n", kind, level,
-           count, verdicts[PIR_VERDICT_FREE], verdicts[PIR_VERDICT_BLOCKED], verdicts[PIR_VERDICT_UNKNOWN],
-           100.0 * verdicts[PIR_VERDICT_UNKNOWN] / count, (unsigned long long)world.slices);
+    printf("# world %d, level %u: %u poses, %u free, %u blocked\n", kind, level, count, verdicts[PIR_VERDICT_FREE],
+           verdicts[PIR_VERDICT_BLOCKED]);
     answer_world_finish(&world);
-    return verdicts[PIR_VERDICT_UNKNOWN];
 }
 
-/* What is proven is true, and the share of what is not falls at least as fast as the spacing. */
 static void no_pose_is_answered_wrongly(void **state) {
     (void)state;
     const uint32_t most = number_of("PIR_TEST_LEVEL", 2);
     const uint32_t each = number_of("PIR_TEST_POSES", 900) / (WORLD_KINDS * (most + 1));
-    uint32_t all = 0;
-    for (int kind = 0; kind < WORLD_KINDS; kind++) {
-        uint32_t before = 0;
-        for (uint32_t level = 0; level <= most; level++) {
-            uint32_t unknown = ask_poses(kind, level, each);
-            all += unknown;
-            // half of those before, and what chance may add
-            expect(level < 2 || unknown <= 0.5 * before + 3 * sqrt(before) + 2, "world %d, level %u", kind, level);
-            before = unknown;
-        }
-    }
-    // as much is proven as has been: a proof that is lost leaves 62 unknown, compilers order draws otherwise
-    const bool as_ever = !getenv("PIR_TEST_SEED") && !getenv("PIR_TEST_POSES") && !getenv("PIR_TEST_LEVEL");
-    expect(!as_ever || all <= 48, "%u poses are unknown", all);
+    for (int kind = 0; kind < WORLD_KINDS; kind++)
+        for (uint32_t level = 0; level <= most; level++)
+            ask_poses(kind, level, each);
 }
 
 /* At the rotations of the grid every pose has its exact state, whatever the length of the quaternion. */
@@ -131,10 +138,10 @@ static void rotations_of_the_grid_have_exact_states(void **state) {
                 pose.rotation = kept;
             }
             pir_configuration answer = classify(&world, &pose);
-            pir_state exact = answer_world_state(&world, &pose);
+            pir_state exact = answer_world_sum_state(&world, &pose);
             expect(answer.on_grid && answer.turn == 0, "world %d pose %u", kind, i);
             expect(answer.state == exact, "world %d pose %u: %d, exactly %d", kind, i, answer.state, exact);
-            assert_true(answer.verdict != PIR_VERDICT_UNKNOWN && is_right(answer.verdict, exact));
+            assert_true(is_right(answer.verdict, exact));
             states[exact]++;
         }
         // nearly a rotation of the grid is none
@@ -249,7 +256,7 @@ static void a_motion_tells_where(void **state) {
     assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &motion), PIR_OK);
     assert_int_equal(motion.verdict, PIR_VERDICT_BLOCKED);
     printf("# through a cube: not proven free from %.4f to %.4f\n", motion.from, motion.to);
-    // two unit cubes meet at x = −1, a third of the way, and part at two thirds; beside it slices leave a little open
+    // two unit cubes meet at x = −1, a third of the way, and part at two thirds
     assert_true(motion.from <= 1.0 / 3 && motion.from > 0.29 && motion.to >= 2.0 / 3 && motion.to < 0.71);
     from.translation.y = to.translation.y = 1.5;
     assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &motion), PIR_OK);
@@ -269,7 +276,8 @@ static void bad_poses_are_refused(void **state) {
     const pir_pose bad[] = {{{0, 0, 0, 0}, {0, 0, 0}}, {{0, 0, NAN, 1}, {0, 0, 0}}, {{0, 0, 0, 1}, {0, INFINITY, 0}}};
     for (int k = 0; k < 3; k++) {
         pir_status expected = k == 0 ? PIR_ERR_ZERO_QUATERNION : PIR_ERR_NOT_FINITE;
-        assert_int_equal(pir_answers_classify(&world.answers, &bad[k], &report, &answer, &gap), expected);
+        assert_int_equal(pir_answers_classify(&world.answers, &bad[k], PIR_WISH_PLACE, &report, &answer, &gap),
+                         expected);
         assert_int_equal(report.status, expected);
         assert_int_equal(pir_answers_segment(&world.answers, &good, &bad[k], &report, &motion), expected);
         assert_int_equal(pir_answers_segment(&world.answers, &bad[k], &good, NULL, &motion), expected);
@@ -296,10 +304,9 @@ static void no_memory_is_a_status(void **state) {
         pir_answers answers;
         pir_configuration answer;
         double gap;
-        world.allocator = &allocator;
-        pir_status status = pir_answers_init(&answers, &world.answers.source, &allocator);
+        pir_status status = pir_answers_init(&answers, &world.answers.bodies, &allocator);
         if (status == PIR_OK)
-            status = pir_answers_classify(&answers, &pose, NULL, &answer, &gap);
+            status = pir_answers_classify(&answers, &pose, PIR_WISH_GAP, NULL, &answer, &gap);
         if (status != PIR_OK) {
             assert_int_equal(status, PIR_ERR_MEMORY);
             failures++;
@@ -307,12 +314,11 @@ static void no_memory_is_a_status(void **state) {
             assert_true(answer.verdict == whole.verdict && answer.place.slice == whole.place.slice);
         }
         pir_answers_finish(&answers);
-        world.allocator = NULL;
         assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
         if (status == PIR_OK)
             break;
     }
-    assert_true(failures > 10);
+    assert_true(failures >= 4);
     answer_world_finish(&world);
 }
 

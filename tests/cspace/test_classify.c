@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Poses and motions asked of files: the answers are those of the sums themselves, and files that were cut short or
- * changed are refused or answer rightly.
+ * Poses and motions asked of files: the answers are those of the bodies without a file, many at once those of
+ * one by one, and files that were cut short or changed are refused or answer rightly.
  */
 #include "support/test.h"
 
@@ -86,7 +86,7 @@ static void balls_around_pieces_are_hardly_wider_than_their_bodies(void **state)
     }
 }
 
-static void a_file_answers_as_the_sums_do(void **state) {
+static void a_file_answers_as_the_bodies_do(void **state) {
     (void)state;
     for (int kind = 0; kind < WORLD_KINDS; kind++) {
         answer_world world;
@@ -99,24 +99,126 @@ static void a_file_answers_as_the_sums_do(void **state) {
             pir_pose from = answer_world_pose(&world, &random), to = answer_world_pose(&world, &random);
             if (i % 4 == 0)
                 from.rotation = pir_grid_rotation(world.grid, test_random_below(&random, (uint32_t)count));
-            pir_configuration sums, file;
+            pir_configuration bodies, file;
             pir_report report = {0};
             double gap;
-            assert_int_equal(pir_answers_classify(&world.answers, &from, NULL, &sums, &gap), PIR_OK);
+            assert_int_equal(pir_answers_classify(&world.answers, &from, PIR_WISH_PLACE, NULL, &bodies, &gap), PIR_OK);
             expect(pir_cspace_classify(cspace, &from, &report, &file) == PIR_OK, "%s", report.text);
-            expect(same_answer(&sums, &file), "world %d pose %u", kind, i);
-            assert_true(file.verdict == PIR_VERDICT_UNKNOWN ||
-                        (file.verdict == PIR_VERDICT_FREE) == (answer_world_state(&world, &from) == PIR_OUTSIDE));
+            expect(same_answer(&bodies, &file), "world %d pose %u", kind, i);
+            assert_int_equal(file.verdict, answer_world_sum_state(&world, &from) == PIR_OUTSIDE ? PIR_VERDICT_FREE
+                                                                                                : PIR_VERDICT_BLOCKED);
             if (i % 20 != 0)
                 continue;
-            pir_cspace_motion of_sums, of_file;
-            assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &of_sums), PIR_OK);
+            pir_cspace_motion of_bodies, of_file;
+            assert_int_equal(pir_answers_segment(&world.answers, &from, &to, NULL, &of_bodies), PIR_OK);
             expect(pir_cspace_segment(cspace, &from, &to, &report, &of_file) == PIR_OK, "%s", report.text);
-            assert_true(of_sums.verdict == of_file.verdict && of_sums.from == of_file.from && of_sums.to == of_file.to);
+            assert_true(of_bodies.verdict == of_file.verdict && of_bodies.from == of_file.from &&
+                        of_bodies.to == of_file.to);
         }
         pir_cspace_destroy(cspace);
         answer_world_finish(&world);
     }
+}
+
+/* --- many poses --- */
+
+#define MANY 400
+
+/* Poses as rows of 9 doubles: a number that is none of a pose's, the translation, another such, the quaternion. */
+typedef struct pose_rows {
+    double row[MANY][9];
+} pose_rows;
+
+static pir_pose_array rows_of(const pose_rows *rows) {
+    return (pir_pose_array){&rows->row[0][5], sizeof rows->row[0], &rows->row[0][1], sizeof rows->row[0], false};
+}
+
+static void make_rows(answer_world *world, int kind, pose_rows *rows, pir_pose poses[MANY]) {
+    const uint32_t count = (uint32_t)pir_grid_get_info(world->grid).count;
+    for (uint32_t i = 0; i < MANY; i++) {
+        test_random random = test_random_case("many", (uint64_t)kind << 32 | i);
+        poses[i] = answer_world_pose(world, &random);
+        if (i % 4 == 0)
+            poses[i].rotation = pir_grid_rotation(world->grid, test_random_below(&random, count));
+        if (i % 40 == 7)
+            poses[i].rotation = (pir_quat){0, 0, 0, 0};
+        if (i % 40 == 21)
+            poses[i].translation.y = i % 80 == 21 ? NAN : INFINITY;
+        memcpy(&rows->row[i][5], &poses[i].rotation, sizeof poses[i].rotation);
+        memcpy(&rows->row[i][1], &poses[i].translation, sizeof poses[i].translation);
+        rows->row[i][0] = rows->row[i][4] = NAN;
+    }
+}
+
+/* Each answer is that of the pose alone, a bad one is told by its index, and what is wanted changes nothing. */
+static void many_poses_are_single_answers(void **state) {
+    (void)state;
+    static pose_rows rows;
+    static pir_pose poses[MANY];
+    static uint8_t verdict[MANY], alone[MANY], status[MANY], exact[MANY], on_grid[MANY];
+    static uint32_t robot[MANY], obstacle[MANY];
+    static uint64_t slice[MANY];
+    static double turn[MANY];
+    const pir_cspace_arrays all = {verdict, status, exact, on_grid, robot, obstacle, slice, turn};
+    for (int kind = 0; kind < WORLD_KINDS; kind++) {
+        answer_world world;
+        answer_world_init(&world, kind, make_grid(kind % 3));
+        answer_world_write(&world, path_of("whole.h5"));
+        pir_cspace *many = open_file("whole.h5"), *single = open_file("whole.h5");
+        make_rows(&world, kind, &rows, poses);
+        const pir_pose_array array = rows_of(&rows);
+        pir_pair_batch_summary summary;
+        pir_report report = {0};
+        assert_int_equal(pir_cspace_classify_many(many, &array, MANY, &all, &report, &summary), PIR_OK);
+        assert_true(summary.bad == 20 && summary.first_bad == 7 && summary.first_status == PIR_ERR_ZERO_QUATERNION);
+        for (uint32_t i = 0; i < MANY; i++) {
+            pir_configuration one;
+            const pir_status is = pir_cspace_classify(single, &poses[i], NULL, &one);
+            assert_int_equal(status[i], is);
+            if (is != PIR_OK) {
+                assert_true(verdict[i] == PIR_POSE_BAD && exact[i] == PIR_POSE_BAD && isnan(turn[i]) && !on_grid[i]);
+                continue;
+            }
+            const pir_configuration told = {
+                (pir_verdict)verdict[i], {robot[i], obstacle[i], slice[i]}, on_grid[i], (pir_state)exact[i], turn[i]};
+            expect(same_answer(&one, &told), "world %d pose %u", kind, i);
+        }
+        const pir_cspace_arrays few = {.verdict = alone};
+        assert_int_equal(pir_cspace_classify_many(many, &array, MANY, &few, NULL, NULL), PIR_OK);
+        assert_memory_equal(alone, verdict, MANY);
+        pir_cspace_destroy(many);
+        pir_cspace_destroy(single);
+        answer_world_finish(&world);
+    }
+}
+
+static void many_poses_refuse_what_is_wrong(void **state) {
+    (void)state;
+    answer_world world;
+    answer_world_init(&world, 0, make_grid(0));
+    answer_world_write(&world, path_of("whole.h5"));
+    pir_cspace *cspace = open_file("whole.h5");
+    double row[14] = {0, 0, 0, 1, 9, 9, 9, 0, 0, 0, 1, 0, 0, 0};
+    uint8_t verdict[2] = {7, 7};
+    const pir_cspace_arrays to = {.verdict = verdict};
+    pir_pose_array poses = {row, 7 * sizeof *row, row + 4, 7 * sizeof *row, false};
+    pir_report report = {0};
+    assert_int_equal(pir_cspace_classify_many(NULL, &poses, 2, &to, &report, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_cspace_classify_many(cspace, NULL, 2, &to, &report, NULL), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_cspace_classify_many(cspace, &poses, 2, NULL, &report, NULL), PIR_ERR_ARGUMENT);
+    poses.rotation_stride = 12;
+    assert_int_equal(pir_cspace_classify_many(cspace, &poses, 2, &to, &report, NULL), PIR_ERR_ARGUMENT);
+    assert_non_null(strstr(report.text, "stride"));
+    assert_true(verdict[0] == 7 && verdict[1] == 7);
+    poses.rotation_stride = 7 * sizeof *row;
+    assert_int_equal(pir_cspace_classify_many(cspace, &poses, 2, &to, &report, NULL), PIR_OK);
+    assert_true(verdict[0] == PIR_VERDICT_FREE && verdict[1] == PIR_VERDICT_BLOCKED);
+    poses.is_one = true;
+    assert_int_equal(pir_cspace_classify_many(cspace, &poses, 2, &to, &report, NULL), PIR_OK);
+    assert_true(verdict[1] == PIR_VERDICT_FREE);
+    assert_int_equal(pir_cspace_classify_many(cspace, &poses, 0, &to, &report, NULL), PIR_OK);
+    pir_cspace_destroy(cspace);
+    answer_world_finish(&world);
 }
 
 /* --- files that are broken --- */
@@ -156,9 +258,12 @@ static int ask_broken(answer_world *world, const pir_pose *poses, const pir_stat
     for (int i = 0; status == PIR_OK && i < count; i++) {
         pir_configuration answer;
         status = pir_cspace_classify(cspace, &poses[i], &report, &answer);
+        const pir_cspace_place slice = {0, 0, 3 * (uint64_t)i};
+        pir_sum *sum = NULL;
         if (status == PIR_OK)
-            right += answer.verdict == PIR_VERDICT_UNKNOWN ||
-                     (answer.verdict == PIR_VERDICT_FREE) == (states[i] == PIR_OUTSIDE);
+            status = pir_cspace_sum(cspace, slice, &report, &sum);
+        right += status == PIR_OK && (answer.verdict == PIR_VERDICT_FREE) == (states[i] == PIR_OUTSIDE);
+        pir_sum_destroy(sum);
     }
     pir_cspace_destroy(cspace);
     if (status == PIR_OK)
@@ -312,7 +417,9 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(balls_around_pieces_are_hardly_wider_than_their_bodies),
-        cmocka_unit_test(a_file_answers_as_the_sums_do),
+        cmocka_unit_test(a_file_answers_as_the_bodies_do),
+        cmocka_unit_test(many_poses_are_single_answers),
+        cmocka_unit_test(many_poses_refuse_what_is_wrong),
         cmocka_unit_test(broken_files_are_refused_or_right),
         cmocka_unit_test(bad_arguments_are_refused),
         cmocka_unit_test(no_memory_is_a_status),

@@ -75,8 +75,12 @@ static void expect_refused(hid_t file, const char *words) {
     pir_status status = pir_cspace_open(BROKEN, &allocator, &report, &cspace);
     const pir_pose pose = {{0, 1, 2, 40}, {0, 0, 0}};
     pir_configuration answer;
+    pir_sum *sum = NULL;
     if (status == PIR_OK)
         status = pir_cspace_classify(cspace, &pose, &report, &answer);
+    if (status == PIR_OK)
+        status = pir_cspace_sum(cspace, answer.place, &report, &sum);
+    pir_sum_destroy(sum);
     pir_cspace_destroy(cspace);
     assert_true(status != PIR_OK && report.status == status);
     expect(strstr(report.text, words) != NULL, "'%s' has no '%s'", report.text, words);

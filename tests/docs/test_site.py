@@ -99,6 +99,37 @@ def check_examples(site, headers):
     return count
 
 
+# What people type, and what has to be among the first five that are found.
+WORDS = {
+    "capsule": "capsule", "ray cast": "ray", "raycast": "ray", "EPA": "penetration", "GJK": "distance",
+    "mesh": "mesh", "trigger": "sensor", "heightmap": "height", "terrain": "height", "broad phase": "scene",
+    "python-fcl": "python", "convex hull": "hull", "quaternion": "rotation", "manifold": "manifold",
+    "collide": "overlap",
+    "toi": "time_of_impact", "non-convex": "solid", "inertia": "mass", "threads": "thread", "minkowski sum": "sum",
+}
+
+
+def check_words(browser):
+    for typed, expected in WORDS.items():
+        found = browser.evaluate(f"""(() => {{
+            const field = document.getElementById("search");
+            field.value = "{typed}";
+            field.dispatchEvent(new Event("input"));
+            return [...document.querySelectorAll("#found a")].slice(0, 5).map(link => link.innerText.toLowerCase());
+        }})()""")
+        assert any(expected in line for line in found), (typed, expected, found)
+
+
+def check_contents(site, headers):
+    """A page of the reference begins with a table of its functions, each with what it does."""
+    for header in headers:
+        names = [item.name for item in header.items if item.kind == "function"]
+        text = (site / f"api/{header.name[:-2]}.html").read_text(encoding="utf-8")
+        table = text.partition('<section class="item">')[0].partition('<table class="contents">')[2]
+        assert re.findall(r'<td><a href="#(\w+)">', table) == names, header.name
+        assert not re.search(r"<td></td>", table), header.name
+
+
 def check_search(browser, site):
     for start in ("index.html", "api/query.html"):
         for typed, expected in (("pir_sum_rotate", "/api/sum.html#pir_sum_rotate"),
@@ -114,9 +145,10 @@ def check_search(browser, site):
                 return link && link.href;
             }})()""")
             assert found and found.endswith(expected), (start, typed, found)
+    check_words(browser)
     nothing = browser.evaluate("""(() => {
         const field = document.getElementById("search");
-        field.value = "no such words anywhere";
+        field.value = "qwertzuiop no such words";
         field.dispatchEvent(new Event("input"));
         return document.getElementById("found").innerText.trim();
     })()""")
@@ -171,6 +203,7 @@ def main():
         told = {item.name for header in headers for item in header.items if item.kind == "function"}
         assert told == written, told ^ written
         assert check_examples(site, headers) > 80
+        check_contents(site, headers)
         browser = chromium.Chromium(chromium.find())
         try:
             pages = check_pages(browser, site)

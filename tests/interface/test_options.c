@@ -395,6 +395,29 @@ static pir_status ask_height_field_create(struct world *w, const void *options, 
     return PIR_OK;
 }
 
+static pir_status ask_trimesh_pair_batch_create(struct world *w, const void *options, pir_report *report,
+                                                double *told) {
+    pir_trimesh_pair_batch *batch = NULL;
+    (void)report;
+    *told = 0;
+    const pir_status status = pir_trimesh_pair_batch_create(w->mesh, w->mesh, options, &batch);
+    pir_trimesh_pair_batch_destroy(batch);
+    return status;
+}
+
+static pir_status ask_solid_query_batch_create(struct world *w, const void *options, pir_report *report, double *told) {
+    pir_solid_query_batch *batch = NULL;
+    pir_pieces *pieces = NULL;
+    (void)report;
+    *told = 0;
+    pir_status status = pir_solid_decompose(w->solid, NULL, NULL, &pieces);
+    if (status == PIR_OK)
+        status = pir_solid_query_batch_create(pieces, pieces, options, &batch);
+    pir_solid_query_batch_destroy(batch);
+    pir_pieces_destroy(pieces);
+    return status;
+}
+
 static pir_status ask_trimesh_pair_create(struct world *w, const void *options, pir_report *report, double *told) {
     pir_trimesh_pair *pair = NULL;
     (void)report;
@@ -488,6 +511,8 @@ static const struct call {
     {"pir_events_create", ask_events_create, &events_kind, false},
     {"pir_pair_create", ask_pair_create, &pair_kind, false},
     {"pir_pair_batch_create", ask_pair_batch_create, &pair_batch_kind, false},
+    {"pir_solid_query_batch_create", ask_solid_query_batch_create, &pair_batch_kind, false},
+    {"pir_trimesh_pair_batch_create", ask_trimesh_pair_batch_create, &pair_batch_kind, false},
     {"pir_history_pair", ask_history_pair, &pair_kind, false},
     {"pir_history_scene", ask_history_scene, &scene_kind, false},
     {"pir_history_add", ask_history_add, &body_kind, false},

@@ -22,7 +22,9 @@
 #include <math.h>
 
 #include "base/report.h"
+#include "base/vec.h"
 #include "cspace/grid/angle.h"
+#include "exact/rotation.h"
 
 #define DEEPEST  16
 #define COARSEST 4
@@ -95,7 +97,8 @@ static pir_status look_at(struct pose_motion *motion, const struct stretch *stre
     pir_configuration configuration;
     double gap;
     motion->asked++;
-    pir_status status = pir_answers_classify(motion->answers, &middle, motion->report, &configuration, &gap);
+    pir_status status =
+        pir_answers_classify(motion->answers, &middle, PIR_WISH_GAP, motion->report, &configuration, &gap);
     if (status != PIR_OK)
         return status;
     motion->blocked |= configuration.verdict == PIR_VERDICT_BLOCKED;
@@ -123,7 +126,8 @@ static pir_status look_at(struct pose_motion *motion, const struct stretch *stre
 static pir_status look_at_end(struct pose_motion *motion, const pir_pose *end) {
     pir_configuration configuration;
     double gap;
-    pir_status status = pir_answers_classify(motion->answers, end, motion->report, &configuration, &gap);
+    pir_status status =
+        pir_answers_classify(motion->answers, end, PIR_WISH_VERDICT, motion->report, &configuration, &gap);
     if (status == PIR_OK)
         motion->blocked |= configuration.verdict == PIR_VERDICT_BLOCKED;
     return status;
@@ -146,7 +150,7 @@ pir_status pir_answers_segment(pir_answers *answers, const pir_pose *from, const
     struct pose_motion motion = {.answers = answers, .report = report, .to = 1};
     motion.length = pir_safe_length(way);
     motion.angle = pir_rotation_angle_bound(first.unit, whole.q1);
-    for (uint32_t k = 0; k < answers->source.robot_count; k++)
+    for (uint32_t k = 0; k < answers->bodies.robot_count; k++)
         motion.reach = fmax(motion.reach, answers->robot[k].reach);
     status = look_at_end(&motion, from);
     if (status == PIR_OK)

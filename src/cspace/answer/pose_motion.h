@@ -5,7 +5,7 @@
 
 #include "cspace/answer/pose_answers.h"
 
-/* Proves by the slices where the motion between two poses is free. Errors as of pir_answers_classify. */
+/* Proves where the motion between two poses is free. Errors as of pir_answers_classify. */
 pir_status pir_answers_segment(pir_answers *answers, const pir_pose *from, const pir_pose *to, pir_report *report,
                                pir_cspace_motion *ret_motion);
 

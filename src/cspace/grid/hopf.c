@@ -71,7 +71,12 @@ static double close_to_next(const pir_hopf *hopf, uint32_t run, const pir_circle
 }
 
 bool pir_hopf_init(pir_hopf *hopf, uint32_t level, const pir_allocator *allocator) {
-    *hopf = (pir_hopf){level, (uint32_t)6 << level, (uint32_t)12 << (2 * level), NULL};
+    *hopf = (pir_hopf){level, (uint32_t)6 << level, (uint32_t)12 << (2 * level), {0, 0, 0}, NULL};
+    const uint64_t eighths = 8 * (uint64_t)hopf->around;
+    const pir_circle_point cap = pir_circle_at(7, eighths);
+    hopf->first_cap[0] = cap.cos;
+    hopf->first_cap[1] = cap.sin;
+    hopf->first_cap[2] = pir_circle_at(7, 2 * eighths).cos;
     hopf->run = PIR_NEW(allocator, uint32_t, hopf->pixels);
     if (!hopf->run)
         return false;

@@ -25,6 +25,7 @@
 typedef struct pir_hopf {
     uint32_t level, around; /* m */
     uint32_t pixels;
+    double first_cap[3]; /* of seven eighths of the spacing, 1/m of a full turn: cosine, sine, cosine of the half */
     uint32_t *run; /* by rank of the pixel on the path: twice the first number on the circle, plus 1 where they fall */
 } pir_hopf;
 

@@ -5,7 +5,8 @@
  * Within an angle B of a rotation lie only rotations over points within B of its own point, because the Hopf map
  * lengthens no way. So the pixels with centres in that cap are looked at, circle of latitude by circle; on the circle
  * of each, the rotations outward from the nearest. What is found is complete when the last of the nearest is within B;
- * otherwise B grows. The cap is taken a little wide, so that rounding leaves out nothing.
+ * otherwise B grows. While rotations are found it shrinks to the last of as
+ * many as are sought. The cap is taken a little wide, so that rounding leaves out nothing.
  */
 #include <math.h>
 
@@ -23,12 +24,23 @@ struct cap {
     pir_near *near;
 };
 
+/* Makes B as small as what has been found allows. */
+static void shrink(struct cap *cap) {
+    const double least = pir_near_least(cap->near);
+    if (least <= cap->half_cos)
+        return;
+    cap->half_cos = least;
+    cap->cos = 2 * least * least - 1;
+}
+
 /* Offers the rotations over a pixel that are within B, outward from the nearest. */
 static void offer_pixel(struct cap *cap, pir_pixel pixel) {
     const uint32_t around = cap->hopf->around;
     pir_circle circle = pir_circle_of(cap->hopf->level, pixel);
     pir_circle_point product = pir_circle_product(&circle, cap->unit);
     double most = sqrt(product.cos * product.cos + product.sin * product.sin);
+    if (most + WIDE < cap->half_cos || most + WIDE < pir_near_least(cap->near))
+        return;
     uint32_t nearest = pir_circle_nearest(product, around);
     for (uint32_t away = 0; 2 * away <= around; away++) {
         // none that is farther is closer than this: the nearest is within half a step
@@ -38,7 +50,10 @@ static void offer_pixel(struct cap *cap, pir_pixel pixel) {
         for (uint32_t side = 0; side < 2 && (side == 0 || (away > 0 && 2 * away < around)); side++) {
             uint32_t k = (nearest + (side ? around - away : away)) % around;
             double close = fabs(pir_quat_dot(cap->unit, pir_circle_rotation(&circle, around, k)));
+            if (close < pir_near_least(cap->near))
+                continue;
             pir_near_offer(cap->near, close, pir_hopf_number(cap->hopf, pixel, k));
+            shrink(cap);
         }
     }
 }
@@ -50,8 +65,8 @@ static void offer_latitude(struct cap *cap, int32_t y) {
     double cosine = (cap->cos - WIDE - cap->z * z) / fmax(across, WIDE);
     if (cosine >= 1)
         return;
-    // the longitudes in the cap: half of them to either side of the point's
-    double half = cosine <= -1 ? 0.5 : pir_turn_part(cosine, sqrt(1 - cosine * cosine)) + WIDE;
+    // the longitudes in the cap, half of them to either side of the point's: arcsin x ≤ x + (π/2 − 1)x³
+    double x = sqrt(0.5 * (1 - fmax(cosine, -1))), half = 2 / PIR_FULL_TURN * (x + 0.5708 * x * x * x) + WIDE;
     double first = 0.5 * pir_pixel_circle_first(level, y);
     double from = ceil((cap->turn_part - half) * count - first), to = floor((cap->turn_part + half) * count - first);
     if (half >= 0.5 || to - from + 1 >= count) {
@@ -73,7 +88,11 @@ static void offer_cap(struct cap *cap) {
     double high = ceil(pir_pixel_y_of(level, fmin(north + WIDE, 1)));
     double low = floor(pir_pixel_y_of(level, fmax(south - WIDE, -1)));
     int32_t to = high > last ? last : (int32_t)high, from = low < -last ? -last : (int32_t)low;
-    for (int32_t y = from; y <= to; y++)
+    // from the middle on, where the nearest is likely to be: it rules out the others
+    const int32_t middle = from + (to - from) / 2;
+    for (int32_t y = middle; y <= to; y++)
+        offer_latitude(cap, y);
+    for (int32_t y = middle - 1; y >= from; y--)
         offer_latitude(cap, y);
 }
 
@@ -90,10 +109,16 @@ void pir_hopf_nearest(const pir_hopf *hopf, pir_quat unit, pir_near *near) {
     for (;; eighths += eighths / 2) {
         if (eighths > half_turn)
             eighths = half_turn;
-        pir_circle_point b = pir_circle_at(eighths, 2 * half_turn);
-        cap.cos = b.cos;
-        cap.sin = b.sin;
-        cap.half_cos = pir_circle_at(eighths, 4 * half_turn).cos;
+        if (eighths == 7) {
+            cap.cos = hopf->first_cap[0];
+            cap.sin = hopf->first_cap[1];
+            cap.half_cos = hopf->first_cap[2];
+        } else {
+            pir_circle_point b = pir_circle_at(eighths, 2 * half_turn);
+            cap.cos = b.cos;
+            cap.sin = b.sin;
+            cap.half_cos = pir_circle_at(eighths, 4 * half_turn).cos;
+        }
         near->count = 0;
         offer_cap(&cap);
         if (eighths == half_turn || (near->count == near->capacity && pir_near_least(near) >= cap.half_cos))
