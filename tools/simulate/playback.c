@@ -11,7 +11,9 @@
  * The frames are numbers as bytes.h writes them; one that may be negative is twice its size, less 1 where it is. A
  * frame has the count of bodies that moved, for each how many were left out since the one before, and seven changes,
  * three of its place and four of its quaternion; the same for looks, with the new look; then 0 where the contacts are
- * those before, else their count and 1, and for each three changes from the contact before and whether bodies overlap.
+ * those before, else their count and 1, and for each three changes from the contact before, whether bodies overlap, the
+ * two bodies, and the normal on an octahedron folded into a square (Meyer and others, On Floating-Point Normal Vectors,
+ * 2010): two numbers from 0 to 126, of which 63 is the middle.
  */
 #include "playback.h"
 
@@ -27,6 +29,8 @@
 #define QUAT_PARTS 16384
 /* Quanta in a step of a contact's place. */
 #define CONTACT_STEP 8
+/* The middle of the square that a normal is in. */
+#define NORMAL_MIDDLE 63
 /* No number of quanta is greater: JavaScript has whole numbers of 53 bits, and one bit is the sign. */
 #define NUMBER_MOST 0x1p50
 
@@ -122,6 +126,14 @@ static void add_looks(struct playback *playback, const struct world *world) {
         }
 }
 
+static void add_normal(struct bytes *bytes, pir_vec3 n) {
+    const double sum = fabs(n.x) + fabs(n.y) + fabs(n.z), x = sum > 0 ? n.x / sum : 0, y = sum > 0 ? n.y / sum : 0;
+    const bool below = n.z < 0;
+    const double u = below ? copysign(1 - fabs(y), x) : x, v = below ? copysign(1 - fabs(x), y) : y;
+    bytes_add_number(bytes, (uint64_t)whole(NORMAL_MIDDLE * (1 + u)));
+    bytes_add_number(bytes, (uint64_t)whole(NORMAL_MIDDLE * (1 + v)));
+}
+
 static void add_contacts(struct playback *playback, const struct world *world) {
     struct bytes now = {0};
     int64_t last[3] = {0};
@@ -135,6 +147,9 @@ static void add_contacts(struct playback *playback, const struct world *world) {
             last[k] = at;
         }
         bytes_add_number(&now, contact.distance < 0);
+        bytes_add_number(&now, contact.body_p);
+        bytes_add_number(&now, contact.body_q);
+        add_normal(&now, contact.normal);
     }
     struct bytes *before = &playback->contacts;
     bool same = now.size == before->size && memcmp(now.at, before->at, now.size) == 0;
