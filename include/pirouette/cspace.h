@@ -373,7 +373,8 @@ typedef struct pir_configuration {
  *
  * Cost: a query of a pair for each pair of pieces whose balls meet, until one is blocked; finding the nearest rotation.
  *
- * Errors: PIR_ERR_ARGUMENT, those of queries of a pair; PIR_ERR_NOT_FINITE and PIR_ERR_ZERO_QUATERNION of the pose.
+ * Errors: PIR_ERR_ARGUMENT, those of queries of a pair; PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION and PIR_ERR_LIMIT
+ * (a translation beyond 2^1000) of the pose.
  */
 PIR_API pir_status pir_cspace_classify(pir_cspace *cspace, const pir_pose *pose, pir_report *report,
                                        pir_configuration *ret_configuration);

@@ -29,6 +29,9 @@
 /* The most pairs that are kept. */
 #define PAIRS 1024
 
+/* Translations beyond are refused, as pairs refuse them: sums with lengths of bodies could overflow. */
+#define FARTHEST 0x1p1000
+
 #define BALL_ERROR (512 * PIR_ROUNDING)
 /* Twice what distances of pairs may be off by, relative to the bodies and the distance. */
 #define DISTANCE_ERROR 4e-12
@@ -204,6 +207,9 @@ pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_
         status = PIR_ERR_NOT_FINITE;
     if (status == PIR_OK) {
         asked.length = pir_safe_length(pose->translation);
+        status = asked.length <= FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
+    }
+    if (status == PIR_OK) {
         if (wish != PIR_WISH_VERDICT)
             find_nearest(&asked);
         status = ask_all(&asked);
