@@ -181,8 +181,42 @@ def slot():
     return {"title": "A box in a tight slot", "seconds": 4, "margin": 0.001, "shapes": shapes, "bodies": bodies}
 
 
+def terrain():
+    """Hulls roll down into a hollow of a height field, round a driven gate."""
+    numbers, side = random.Random(2), 25
+    heights = [[0.035 * ((i - 12) ** 2 + (j - 12) ** 2) / 12 + 0.12 * math.sin(1.1 * i) * math.cos(0.9 * j)
+                for i in range(side)] for j in range(side)]
+    shapes = {"ground": {"heights": heights, "step": [0.4, 0.4]}, "gate": box(2.4, 0.12, 0.6),
+              "ball": {"model": "shape:geodesic?level=2", "scale": 0.13}}
+    for i in range(8):
+        shapes[f"hull {i}"] = hull(numbers, 10 + 2 * i, 0.16)
+    bodies = [body("ground", [0, 0, 0], kind="static"),
+              body("gate", [4.8, 4.8, 0.45], kind="kinematic", spin=[0, 0, 0.8])]
+    for i in range(60):
+        angle, out = 2 * math.pi * i / 60, 2.6 + 0.9 * (i % 2)
+        name = "ball" if i % 4 == 0 else f"hull {i % 8}"
+        bodies.append(body(name, [4.8 + out * math.cos(angle), 4.8 + out * math.sin(angle), 1.9 + 0.2 * (i % 3)],
+                           turned(numbers)))
+    return {"title": "Hulls that roll into a hollow", "seconds": 8, "shapes": shapes, "bodies": bodies}
+
+
+def bullets():
+    """200 m/s is 83 cm a step; the plates are 1 cm thick."""
+    shapes, ground = floor(6.0)
+    shapes["plate"], shapes["bullet"] = box(0.01, 0.8, 0.8), {"model": "shape:geodesic?level=1", "scale": 0.03}
+    bodies = [ground]
+    for i in range(3):
+        bodies.append(body("plate", [0.5 + 0.6 * i, 0, 0.4], density=7800))
+    bodies.append(body("plate", [2.3, 0, 0.4], kind="static"))
+    for i in range(4):
+        bodies.append(body("bullet", [-1.5 - 0.2 * i, 0.25 * (i - 1.5), 0.3 + 0.1 * i], density=11000,
+                           velocity=[200, 0, 0]))
+    return {"title": "Bullets of 200 m/s and plates of 1 cm", "seconds": 3, "shapes": shapes, "bodies": bodies}
+
+
 SCENES = {"stack": stack, "cards": cards, "pile": lambda: pile(500, 8, 12), "heap": lambda: pile(80, 4, 6),
-          "dominoes": dominoes, "table": table, "gears": gears, "slot": slot}
+          "dominoes": dominoes, "table": table, "gears": gears, "slot": slot, "terrain": terrain,
+          "bullets": bullets}
 
 
 def text_of(scene):

@@ -68,6 +68,15 @@ def signed(n):
     return -(n + 1) // 2 if n % 2 else n // 2
 
 
+def normal_of(x, y):
+    """From the square that an octahedron was folded into."""
+    z = 1 - abs(x) - abs(y)
+    if z < 0:
+        x, y = (1 - abs(y)) * (1 if x >= 0 else -1), (1 - abs(x)) * (1 if y >= 0 else -1)
+    length = math.sqrt(x * x + y * y + z * z)
+    return x / length, y / length, z / length
+
+
 def frames_of(page):
     """The poses of each frame, the looks and the contacts, decoded as the page says."""
     at = numbers(base64.b64decode(page["motion"]))
@@ -87,7 +96,8 @@ def frames_of(page):
             contacts, place = [], [0, 0, 0]
             for _ in range(points - 1):
                 place = [old + signed(next(at)) for old in place]
-                contacts.append((*(8 * page["quantum"] * c for c in place), next(at)))
+                contacts.append((*(8 * page["quantum"] * c for c in place), next(at), (next(at), next(at)),
+                                 normal_of(next(at) / 63 - 1, next(at) / 63 - 1)))
         q = page["quantum"]
         frames.append(([[*(c * q for c in p[:3]), *(c / 16384 for c in p[3:])] for p in pose], look[:], contacts))
     assert next(at, None) is None
@@ -165,9 +175,11 @@ class Simulate(Simulated):
         deep = self.path / "deep.html"
         self.good("simulate", self.scene(scene([cube(0.4)], seconds=1)), "-o", deep)
         self.assertTrue(any(look[1] == 2 for _, look, _ in frames_of(self.page(deep))))
-        for x, y, z, kind in frames[-1][2]:
+        for x, y, z, kind, bodies, normal in frames[-1][2]:
             self.assertLess(max(abs(x), abs(y)), 0.52)
             self.assertLess(min(abs(z), abs(z - 1)), 0.02)
+            self.assertIn(sorted(bodies), ([0, 1], [1, 2]))
+            self.assertGreater(abs(normal[2]), 0.9999)
 
     def test_runs_are_the_same(self):
         states = set()
@@ -179,7 +191,8 @@ class Simulate(Simulated):
 
     def test_every_shipped_scene_runs(self):
         names = sorted(path.stem for path in SCENES.glob("*.json"))
-        self.assertEqual(names, ["cards", "dominoes", "gears", "heap", "pile", "slot", "stack", "table"])
+        self.assertEqual(names, ["bullets", "cards", "dominoes", "gears", "heap", "pile", "slot", "stack", "table",
+                                 "terrain"])
         for name in names:
             told = self.data("simulate", SCENES / f"{name}.json", "--seconds", 0.05)
             self.assertGreater(told["moving"], 0)
