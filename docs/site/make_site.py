@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Makes the site: every page of the project, the reference of its public functions, the examples, and a search.
 
-Usage: make_site.py OUTPUT. The site is static and works from a folder as from a server; OUTPUT/index.html is its door.
+Usage: make_site.py OUTPUT [COMMAND]. The site is static and works from a folder as from a server; OUTPUT/index.html is
+its door. With COMMAND, the program `pirouette`, it has a gallery of the scenes of examples/scenes that play.
 Exits with 1, and says why, when a link of a page leads nowhere or Doxygen warns.
 """
 import html
@@ -11,6 +12,7 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import sys
 
 import markdown
@@ -38,6 +40,18 @@ PAGES = {
     "CONTRIBUTING.md": "Contributing", "SECURITY.md": "Security",
     "docs/upgrading.md": "Upgrading", "CHANGELOG.md": "Changelog",
 }
+# Scenes of the gallery, how many seconds of each, and what there is to see.
+SCENES = {
+    "cards": (4, "A house of cards stands on friction alone."),
+    "dominoes": (8, "A ball starts a row of dominoes."),
+    "terrain": (8, "Hulls roll over a height field, round a gate that is driven."),
+    "bullets": (3, "Bullets of 200 m/s meet plates of 1 cm, and none passes."),
+    "gears": (4, "Two gears, each of convex pieces; the right one turns by what the left one's teeth push."),
+    "heap": (6, "Eighty hulls fall and come to rest."),
+    "slot": (4, "A box goes down a slot with a tenth of a millimetre on each side."),
+    "stack": (4, "Ten boxes stand on one another and do not drift."),
+    "table": (6, "Two mugs and a controller, scanned, fall on a table."),
+}
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
 
 
@@ -55,8 +69,9 @@ def contents(header):
 
 
 class Site:
-    def __init__(self, out):
+    def __init__(self, out, command=None):
         self.out = out
+        self.command = command
         self.errors = []
         self.symbols = {}  # name -> address from the top of the site
         self.files = {}  # path in the repository -> address
@@ -113,6 +128,8 @@ class Site:
             return f'<li><a href="{self.relative(address, here)}"{mark}>{html.escape(title)}</a></li>'
 
         pages = "".join(entry(self.files[page], title) for page, title in PAGES.items())
+        if self.command:
+            pages += entry("gallery/index.html", "Scenes that play")
         api = "".join(entry(f"api/{header.name[:-2]}.html", header.name) for header in headers)
         return (f'<h2>Pages</h2><ul>{pages}</ul><h2>Reference</h2><ul>{entry("api/index.html", "All names")}{api}</ul>'
                 f'<h2>Examples</h2><ul>{"".join(entry(f"examples/{e.stem}.html", e.name) for e in EXAMPLES)}</ul>')
@@ -170,6 +187,25 @@ class Site:
     def in_folder(self, folder, entry, here):
         address = self.files.get(f"{folder}/{entry.rstrip('/')}")
         return f'<a href="{self.relative(address, here)}">{entry}</a>' if address else entry
+
+    def write_gallery(self):
+        here, items = "gallery/index.html", []
+        (self.out / "gallery").mkdir(parents=True, exist_ok=True)
+        for name, (seconds, told) in SCENES.items():
+            scene = ROOT / f"examples/scenes/{name}.json"
+            page = self.out / "gallery" / f"{name}.html"
+            done = subprocess.run([self.command, "simulate", scene, "--seconds", str(seconds), "-o", page],
+                                  capture_output=True, text=True)
+            if done.returncode != 0:
+                self.errors.append(f"gallery: {name}: {done.stderr.strip()}")
+                continue
+            title = json.loads(scene.read_text(encoding="utf-8"))["title"]
+            items.append(f'<li><a href="{name}.html">{html.escape(title)}</a><br>{html.escape(told)}</li>')
+            self.note(title, f"gallery/{name}.html", "Scene", told)
+        body = ("<h1>Scenes that play</h1><p>Each is a page by itself that <code>pirouette simulate</code> wrote: turn "
+                "it by dragging, click a body to see its contacts and their normals.</p>"
+                f"<ul>{''.join(items)}</ul>")
+        self.write(here, "Scenes that play", body)
 
     # ---- the reference
 
@@ -236,6 +272,8 @@ class Site:
         for header in self.headers:
             self.write_header(header)
         self.write_names()
+        if self.command:
+            self.write_gallery()
         for name in self.wanted:
             self.write_file(name)
         for name in ("site.css", "site.js"):
@@ -249,10 +287,10 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.c"))
 TEMPLATE = (HERE / "page.html").read_text(encoding="utf-8")
 
 
-def main(out):
+def main(out, command=None):
     out = pathlib.Path(out).resolve()
     shutil.rmtree(out, ignore_errors=True)
-    site = Site(out)
+    site = Site(out, command and pathlib.Path(command).resolve())
     site.make()
     print(*site.errors, sep="\n", file=sys.stderr, end="\n" if site.errors else "")
     print(f"{out}/index.html: {sum(1 for _ in out.rglob('*.html'))} pages, {len(site.symbols)} names")
