@@ -64,8 +64,44 @@ def check(browser):
     browser.evaluate("draw()")
     pictures.add(browser.evaluate(PICTURE))
     assert len(pictures) == 7, len(pictures)
+    check_controls(browser)
     browser.evaluate("show(3); document.getElementById('play').click()")
     browser.wait_until("time != 3")
+
+
+def check_controls(browser):
+    """Steps, keys, the view, and a body that is clicked, as the text and the picture say."""
+    press = "document.dispatchEvent(new KeyboardEvent('keydown', {key: '%s'}))"
+    browser.evaluate("reset(); show(7); document.getElementById('on').click()")
+    assert browser.evaluate("time") == 8
+    for key, time in (("ArrowLeft", 7), ("ArrowRight", 8), ("Home", 0), ("End", 60)):
+        browser.evaluate(press % key)
+        assert browser.evaluate("time") == time, key
+    browser.evaluate(press % "+")
+    assert browser.evaluate("looking.zoom") > 1
+    browser.evaluate(press % "r")
+    assert browser.evaluate("looking.zoom") == 1
+    text = "document.getElementById('chosen').textContent"
+    nobody = browser.evaluate(text)
+    for body in (1, 2):
+        x, y = browser.evaluate(f"""(() => {{
+            const view = viewOf(), p = [...frames[60].pose.slice({7 * body}, {7 * body + 3}), 1];
+            const at = [0, 1, 2, 3].map(r => p.reduce((sum, c, k) => sum + view[4 * k + r] * c, 0));
+            const box = canvas.getBoundingClientRect();
+            return [box.left + (at[0] / at[3] + 1) / 2 * box.width, box.top + (1 - at[1] / at[3]) / 2 * box.height];
+        }})()""")
+        for kind in ("mousePressed", "mouseReleased"):
+            browser.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+        assert browser.evaluate("chosen") == body, (body, browser.evaluate("chosen"))
+        its = browser.evaluate(f"contactsOf(frames[60].contacts, {body}).length")
+        assert its > 0 and browser.evaluate(text).startswith(f"Body {body}: ")
+        assert f"{its} contacts with 1 body;" in browser.evaluate(text), browser.evaluate(text)
+        # a box on a floor: its normals are along z
+        worst = browser.evaluate(f"Math.min(...contactsOf(frames[60].contacts, {body}).map(i => "
+                                 "Math.abs(frames[60].contacts[i + 8])))")
+        assert worst > 0.9999, worst
+    browser.evaluate(press % "Escape")
+    assert browser.evaluate(text) == nobody
 
 
 def main(command):
