@@ -3,7 +3,8 @@
 """The site that ./dev docs makes: every link and anchor leads somewhere, no page complains in a browser or overflows a
 phone, the search finds, pictures and colours are there, and the reference says of every function what it must.
 
-Usage: test_site.py ROOT [COMMAND]. With COMMAND the site has its gallery. Needs doxygen and Chromium; ends with 77, skipped, where one is missing.
+Usage: test_site.py ROOT [COMMAND]. With COMMAND the site has its gallery. Needs doxygen and Chromium; ends with 77,
+skipped, where one is missing.
 """
 import html.parser
 import os
