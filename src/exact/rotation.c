@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/quat_product.h"
+
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
     double most = fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fabs(c[2]), fabs(c[3])));
@@ -52,15 +54,9 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
  */
 static pir_status bring_near_one(pir_quat q, double c[4]) {
     const double given[4] = {q.x, q.y, q.z, q.w};
-    bool large = false, near = true;
-    for (int k = 0; k < 4; k++) {
-        double most = fabs(given[k]);
-        c[k] = given[k];
-        large |= most >= 0.5;
-        near &= most < 1 && (most == 0 || most >= 0x1p-900);
-    }
+    memcpy(c, given, sizeof given);
     // most quaternions are there already
-    if (large && near)
+    if (pir_quat_is_fit(q))
         return PIR_OK;
     for (int k = 0; k < 4; k++)
         if (!isfinite(given[k]))
@@ -78,69 +74,6 @@ static pir_status bring_near_one(pir_quat q, double c[4]) {
     return PIR_OK;
 }
 
-/* Components with their halves, of 26 bits each, for products without loss (Dekker, 1971). */
-struct halves {
-    double whole[4], high[4], low[4];
-};
-
-static struct halves split(const double c[4]) {
-    struct halves s;
-    for (int k = 0; k < 4; k++) {
-        double t = 134217729.0 * c[k]; // 2^27 + 1
-        s.whole[k] = c[k];
-        s.high[k] = t - (t - c[k]);
-        s.low[k] = c[k] - s.high[k];
-    }
-    return s;
-}
-
-/* Factors by component: which one of a, with what sign, and which one of b. */
-struct factors {
-    int a[4];
-    double sign[4];
-    int b[4];
-};
-
-/* Adds a product to each of four sums, and what rounding leaves of it and of the sum to `rest`. */
-static inline void add_products(const struct halves *a, const struct halves *b, struct factors of, double sum[4],
-                                double rest[4]) {
-    double p[4], p_high[4], p_low[4], q[4], q_high[4], q_low[4];
-    for (int k = 0; k < 4; k++) {
-        p[k] = of.sign[k] * a->whole[of.a[k]];
-        p_high[k] = of.sign[k] * a->high[of.a[k]];
-        p_low[k] = of.sign[k] * a->low[of.a[k]];
-        q[k] = b->whole[of.b[k]];
-        q_high[k] = b->high[of.b[k]];
-        q_low[k] = b->low[of.b[k]];
-    }
-    for (int k = 0; k < 4; k++) {
-        double product = p[k] * q[k];
-        double lost =
-            ((p_high[k] * q_high[k] - product) + p_high[k] * q_low[k] + p_low[k] * q_high[k]) + p_low[k] * q_low[k];
-        double s = sum[k] + product, t = s - sum[k];
-        rest[k] += ((sum[k] - (s - t)) + (product - t)) + lost;
-        sum[k] = s;
-    }
-}
-
-/*
- * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their
- * sums added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some
- * u² of |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
- */
-static void multiply_conjugate(const double a[4], const double b[4], double ret_product[4], double ret_rest[4]) {
-    const struct halves p = split(a), q = split(b);
-    double sum[4] = {0}, rest[4] = {0};
-    add_products(&p, &q, (struct factors){{3, 3, 3, 3}, {1, 1, 1, 1}, {0, 1, 2, 3}}, sum, rest);
-    add_products(&p, &q, (struct factors){{0, 1, 2, 1}, {-1, -1, -1, 1}, {3, 3, 3, 1}}, sum, rest);
-    add_products(&p, &q, (struct factors){{1, 2, 0, 2}, {-1, -1, -1, 1}, {2, 0, 1, 2}}, sum, rest);
-    add_products(&p, &q, (struct factors){{2, 0, 1, 0}, {1, 1, 1, 1}, {1, 2, 0, 0}}, sum, rest);
-    for (int k = 0; k < 4; k++) {
-        ret_product[k] = sum[k] + rest[k];
-        ret_rest[k] = rest[k] - (ret_product[k] - sum[k]);
-    }
-}
-
 /*
  * The effect on r of rounding the product's components, by u each: q is off by u of its length, and so, up to terms of
  * order u², is its direction, which M(q)/|q|² depends on alone. Unit quaternions at a distance c have matrices at
@@ -156,12 +89,12 @@ pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_qua
         status = bring_near_one(p, b);
     if (status != PIR_OK)
         return status;
-    double product[4], rest[4];
-    multiply_conjugate(a, b, product, rest);
-    status = pir_rotation_set(rotation, (pir_quat){product[0], product[1], product[2], product[3]});
+    const pir_quat_product product =
+        pir_quat_conjugate_times((pir_quat){a[0], a[1], a[2], a[3]}, (pir_quat){b[0], b[1], b[2], b[3]});
+    status = pir_rotation_set(rotation, product.whole);
     if (status != PIR_OK)
         return status;
-    rotation->rest = (pir_quat){rest[0], rest[1], rest[2], rest[3]};
+    rotation->rest = product.rest;
     rotation->relative = true;
     rotation->factor[0] = q;
     rotation->factor[1] = p;

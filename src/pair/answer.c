@@ -84,7 +84,8 @@ static bool by_proof(pir_pair *pair, pir_workspace *workspace, const pir_pair_in
     const bool has_cutoff = (want & PIR_WANT_SEPARATION) || radii > 0;
     const double least = has_cutoff ? cutoff + radii : 0;
     if (!pir_pair_allows(pair, PIR_LEVEL_APART) ||
-        !(pir_pair_stays_apart(pair, input, least) || pir_pair_apart(pair, workspace->walker, input, least)))
+        !(pir_pair_stays_apart(pair, input, least) ||
+          (pair->has_axis && least < HUGE_VAL && pir_pair_apart(pair, workspace->walker, input, least))))
         return false;
     pir_result_clear(&workspace->answer);
     workspace->decided.kind = PIR_NO_PIECE;

@@ -245,9 +245,7 @@ static inline bool set_standing(pir_pair *pair, const pir_walker *walker, const 
 
 bool pir_pair_apart(pir_pair *pair, const pir_walker *walker, const pir_pair_input *input, double least) {
     struct standing at;
-    // without a cutoff nothing is beyond it
-    if (!pair->has_axis || !(least < HUGE_VAL) || !(pair->down > 0) || pir_pair_check(input) != PIR_OK ||
-        !set_standing(pair, walker, input, least, &at))
+    if (!(pair->down > 0) || pir_pair_check(input) != PIR_OK || !set_standing(pair, walker, input, least, &at))
         return false;
     const struct view by_q = view_with_q(&at, pair->axis);
     if (is_apart_by(&at, by_q, input) || is_apart_elsewhere(&at, by_q.world, input))

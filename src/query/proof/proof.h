@@ -60,7 +60,7 @@ static inline bool pir_is_tiny(double c) {
 
 /* Whether a rotation, and a relative one, can be made of it as it is. */
 static inline bool pir_quat_is_plain(pir_quat q) {
-    return pir_quat_is_near_unit(q) && !(pir_is_tiny(q.x) | pir_is_tiny(q.y) | pir_is_tiny(q.z) | pir_is_tiny(q.w));
+    return pir_quat_is_near_unit(q) && !(pir_is_tiny(q.x) || pir_is_tiny(q.y) || pir_is_tiny(q.z) || pir_is_tiny(q.w));
 }
 
 /*
