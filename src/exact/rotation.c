@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "exact/quat_product.h"
+#include "exact/wide.h"
 
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
@@ -119,6 +120,31 @@ static void set_integers(pir_quat given, pir_int q[4]) {
         pir_int_set_double(&q[k], c[k], low);
 }
 
+#if GMP_NUMB_BITS == 64
+/* The product, where the components of both factors are short, as they are unless one is far smaller than another. */
+static bool set_short_product(const pir_int a[4], const pir_int b[4], pir_int q[4]) {
+    int64_t c[4], d[4];
+    for (int k = 0; k < 4; k++)
+        if (!pir_int_get_short(&a[k], &c[k]) || !pir_int_get_short(&b[k], &d[k]))
+            return false;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        pir_int_set_two(&q[i], (pir_two_limbs)c[3] * d[i] - (pir_two_limbs)c[i] * d[3] - (pir_two_limbs)c[j] * d[k] +
+                                   (pir_two_limbs)c[k] * d[j]);
+    }
+    pir_int_set_two(&q[3], (pir_two_limbs)c[0] * d[0] + (pir_two_limbs)c[1] * d[1] + (pir_two_limbs)c[2] * d[2] +
+                               (pir_two_limbs)c[3] * d[3]);
+    return true;
+}
+#else
+static bool set_short_product(const pir_int a[4], const pir_int b[4], pir_int q[4]) {
+    (void)a;
+    (void)b;
+    (void)q;
+    return false;
+}
+#endif
+
 /* conj(a)·b in integers, each factor in limbs of its own. */
 static void set_product(const pir_quat factor[2], pir_int q[4]) {
     // and the product that pir_int_sum makes at a time
@@ -131,6 +157,8 @@ static void set_product(const pir_quat factor[2], pir_int q[4]) {
     }
     set_integers(factor[0], a);
     set_integers(factor[1], b);
+    if (set_short_product(a, b, q))
+        return;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         const pir_term terms[4] = {
@@ -203,8 +231,46 @@ static bool set_short(pir_rotation_integers *to) {
     pir_int_set_two(&to->norm, norm);
     return true;
 }
+
+/* w² ± x² ± y² ± z² as set_diagonal has it. */
+static void set_two_diagonal(const pir_two_limbs q[4], pir_int *entry, int i) {
+    pir_int256 sum = {{0}};
+    for (int k = 0; k < 4; k++)
+        pir_int256_add_product(&sum, i < 3 && k != 3 && k != i ? -q[k] : q[k], q[k]);
+    pir_int_set_wide(entry, &sum);
+}
+
+/* 2 (q_i q_j ± w q_k). */
+static void set_two_entry(const pir_two_limbs q[4], pir_int *entry, int i, bool transposed) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    pir_int256 sum = {{0}};
+    pir_int256_add_product(&sum, 2 * q[i], q[j]);
+    pir_int256_add_product(&sum, transposed ? 2 * q[3] : -2 * q[3], q[k]);
+    pir_int_set_wide(entry, &sum);
+}
+
+/* M and |q|² where components are below 2^122, as those of a relative rotation mostly are; sums are below 2^246. */
+static bool set_two(pir_rotation_integers *to) {
+    pir_two_limbs q[4];
+    for (int k = 0; k < 4; k++)
+        if (!pir_int_get_two(&to->q[k], 122, &q[k]))
+            return false;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        set_two_diagonal(q, &to->m[i][i], i);
+        set_two_entry(q, &to->m[i][j], i, false);
+        set_two_entry(q, &to->m[j][i], i, true);
+    }
+    set_two_diagonal(q, &to->norm, 3);
+    return true;
+}
 #else
 static bool set_short(pir_rotation_integers *to) {
+    (void)to;
+    return false;
+}
+
+static bool set_two(pir_rotation_integers *to) {
     (void)to;
     return false;
 }
@@ -230,7 +296,7 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
         to->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     to->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     rotation->has_exact = true;
-    if (set_short(to))
+    if (set_short(to) || set_two(to))
         return;
     mp_limb_t product[PIR_MATRIX_LIMBS];
     pir_limbs scratch = {product, 0, PIR_MATRIX_LIMBS};
