@@ -5,6 +5,9 @@
 // percentile and worst in microseconds, and in how many frames the sign or the distance (by 1e-3 of the size) is wrong
 // against ours, which the property tests hold to exact arithmetic.
 //
+// Motions named "both" move Q as well; whoever can only place one body is given P as Q sees it, made before.
+// Pairs of different bodies have slivers: see pair_poses.hpp.
+//
 // Then what a cold pair's first answer takes, and many pairs at once, each turning. All lines go to pairs.csv.
 //
 //     bench_pairs FOLDER
@@ -62,8 +65,9 @@ class Pair : public PairPeer {
                 (unsigned long long)s.supports, (unsigned long long)s.begun);
         check(pir_pair_reset(pair_, p_, q_));
     }
-    double ask(const Pose &pose) override {
-        input_.pose_p = {pose.r, pose.t};
+    double ask(const Place &place) override {
+        input_.pose_p = {place.p.r, place.p.t};
+        input_.pose_q = {place.q.r, place.q.t};
         pir_query_result result;
         pir_pair_signed_distance(pair_, workspace_, &input_, &result);
         if (contacts_) {
@@ -101,7 +105,8 @@ class Whole : public PairPeer {
     void forget() override {
         cache_ = {};
     }
-    double ask(const Pose &pose) override {
+    double ask(const Place &place) override {
+        const Pose &pose = place.relative;
         pir_query_input input = pir_query_input_default();
         pir_query_result result;
         input.translation = pose.t;
@@ -126,7 +131,8 @@ class Other : public PairPeer {
     }
     void forget() override {
     }
-    double ask(const Pose &pose) override {
+    double ask(const Place &place) override {
+        const Pose &pose = place.relative;
         peer_->place(pose.r, pose.t);
         PeerAnswer answer = peer_->ask_guarded(false);
         if (answer.overlaps && answer.distance >= 0)
@@ -183,23 +189,28 @@ bool is_wrong(double answer, double right, double size, double optional) {
                                        : std::fabs(answer - right) > WRONG * size;
 }
 
-void run(FILE *csv, const char *body, const char *motion, int steps, pir_polytope *p, const std::vector<Pose> &poses,
+struct Bodies {
+    const char *name;
+    pir_polytope *p, *q;
+};
+
+void run(FILE *csv, const Bodies &bodies, const char *motion, int steps, const std::vector<Place> &places,
          double overhead) {
-    pir_polytope *q = p;
+    pir_polytope *p = bodies.p, *q = bodies.q;
     auto all = everyone(p, q);
-    std::vector<std::vector<double>> ns(all.size(), std::vector<double>(poses.size(), HUGE_VAL));
+    std::vector<std::vector<double>> ns(all.size(), std::vector<double>(places.size(), HUGE_VAL));
     std::vector<int> wrong(all.size());
     std::vector<double> answers(all.size());
     double size = size_of(p) + size_of(q), optional = contact_cutoff(p, q) / 2;
     for (int replay = 0; replay < REPLAYS; replay++) {
         for (auto &peer : all)
             peer->forget();
-        for (size_t i = 0; i < poses.size(); i++) {
+        for (size_t i = 0; i < places.size(); i++) {
             // in an order that turns, so that no one always comes after the same
             for (size_t turn = 0; turn < all.size(); turn++) {
                 size_t k = (turn + i + (size_t)replay) % all.size();
                 double answer = 0;
-                double time = nanoseconds(overhead, [&] { answer = all[k]->ask(poses[i]); });
+                double time = nanoseconds(overhead, [&] { answer = all[k]->ask(places[i]); });
                 ns[k][i] = std::min(ns[k][i], time);
                 answers[k] = answer;
             }
@@ -211,12 +222,29 @@ void run(FILE *csv, const char *body, const char *motion, int steps, pir_polytop
     Line ours = line_of(ns[0]);
     for (size_t k = 0; k < all.size(); k++) {
         Line l = line_of(ns[k]);
-        std::printf("%-13s %-9s %5d %-15s %8.3f %8.3f %8.3f %8.3f %5d   %5.2f %5.2f\n", body, motion, steps,
+        std::printf("%-18s %-13s %5d %-15s %8.3f %8.3f %8.3f %8.3f %5d   %5.2f %5.2f\n", bodies.name, motion, steps,
                     all[k]->name(), l.median / 1e3, l.mean / 1e3, l.p99 / 1e3, l.worst / 1e3, wrong[k],
                     ours.median / l.median, ours.mean / l.mean);
-        std::fprintf(csv, "%s,%s,%d,%s,%.1f,%.1f,%.1f,%.1f,%d,%zu\n", body, motion, steps, all[k]->name(), l.median,
-                     l.mean, l.p99, l.worst, wrong[k], poses.size());
+        std::fprintf(csv, "%s,%s,%d,%s,%.1f,%.1f,%.1f,%.1f,%d,%zu\n", bodies.name, motion, steps, all[k]->name(),
+                     l.median, l.mean, l.p99, l.worst, wrong[k], places.size());
     }
+}
+
+// One motion with Q standing, then the same with both moving.
+void run_both(FILE *csv, const Bodies &bodies, const char *motion, int steps, const std::vector<Pose> &poses,
+              double overhead) {
+    run(csv, bodies, motion, steps, q_stands(poses), overhead);
+    run(csv, bodies, (std::string(motion) + " both").c_str(), steps, both_move(poses, steps), overhead);
+}
+
+// Apart by three tenths of the way, deep by as much, and in no order, both moving.
+void run_others(FILE *csv, const Bodies &bodies, int frames, double overhead) {
+    auto both = [&](const char *motion, const std::vector<Pose> &poses) {
+        run(csv, bodies, motion, 500, both_move(poses, 500), overhead);
+    };
+    both("apart both", away_from_contact(bodies.p, bodies.q, frames, 500, 0.3));
+    both("deep both", away_from_contact(bodies.p, bodies.q, frames, 500, -0.3));
+    both("teleport both", teleports(hovering(bodies.p, bodies.q, frames, 500)));
 }
 
 // The first answer of a pair that has just been made, in a workspace that is warm.
@@ -247,7 +275,7 @@ void run_cold(FILE *csv, const char *body, pir_polytope *p, pir_polytope *q, con
     const char *names[2] = {"ours created", "ours reset"};
     for (int k = 0; k < 2; k++) {
         Line l = line_of(*rows[k]);
-        std::printf("%-13s %-9s %5d %-15s %8.3f %8.3f %8.3f %8.3f\n", body, "cold", 0, names[k], l.median / 1e3,
+        std::printf("%-18s %-13s %5d %-15s %8.3f %8.3f %8.3f %8.3f\n", body, "cold", 0, names[k], l.median / 1e3,
                     l.mean / 1e3, l.p99 / 1e3, l.worst / 1e3);
         std::fprintf(csv, "%s,cold,0,%s,%.1f,%.1f,%.1f,%.1f,0,%zu\n", body, names[k], l.median, l.mean, l.p99, l.worst,
                      poses.size());
@@ -279,7 +307,7 @@ void run_many(FILE *csv, const char *body, pir_polytope *p, pir_polytope *q, con
         ns.push_back(time / count);
     }
     Line l = line_of(ns);
-    std::printf("%-13s %-9s %5d %-15s %8.3f %8.3f %8.3f %8.3f   %.2f ms a frame\n", body, "many", count, "ours pair",
+    std::printf("%-18s %-13s %5d %-15s %8.3f %8.3f %8.3f %8.3f   %.2f ms a frame\n", body, "many", count, "ours pair",
                 l.median / 1e3, l.mean / 1e3, l.p99 / 1e3, l.worst / 1e3, l.median * count / 1e6);
     std::fprintf(csv, "%s,many,%d,ours pair,%.1f,%.1f,%.1f,%.1f,0,%d\n", body, count, l.median, l.mean, l.p99, l.worst,
                  frames);
@@ -306,7 +334,7 @@ int main(int argc, char **argv) {
                   {"20 points", sphere_points(20)},  {"40 points", sphere_points(40)},
                   {"60 points", sphere_points(60)},  {"gs4", shape("gs4")},
                   {"ellipsoid960", shape("ellipse")}};
-    std::printf("%-13s %-9s %5s %-15s %8s %8s %8s %8s %5s   %s\n", "body", "motion", "steps", "who", "median", "mean",
+    std::printf("%-18s %-13s %5s %-15s %8s %8s %8s %8s %5s   %s\n", "body", "motion", "steps", "who", "median", "mean",
                 "p99", "worst", "wrong", "ours by theirs");
     std::fprintf(csv, "body,motion,steps,who,median_ns,mean_ns,p99_ns,worst_ns,wrong,frames\n");
     for (auto &body : bodies) {
@@ -314,14 +342,27 @@ int main(int argc, char **argv) {
         if (argc == 3 && std::string(argv[2]) != body.name)
             continue;
         for (int steps : {50, 500, 5000})
-            run(csv, body.name, "hovering", steps, p, hovering(p, p, frames, steps), overhead);
+            run_both(csv, {body.name, p, p}, "hovering", steps, hovering(p, p, frames, steps), overhead);
+        run_others(csv, {body.name, p, p}, frames, overhead);
         run_cold(csv, body.name, p, p, hovering(p, p, frames, 7), overhead);
     }
+    pir_polytope *sliver = sliver_points(100), *extreme = sphere_points(101);
+    const Bodies pairs[] = {{"20 points and cube", bodies[2].polytope, bodies[0].polytope},
+                            {"sliver and extreme", sliver, extreme},
+                            {"sliver and cube", sliver, bodies[0].polytope}};
+    for (const Bodies &pair : pairs) {
+        if (argc == 3 && std::string(argv[2]) != pair.name)
+            continue;
+        run_both(csv, pair, "hovering", 500, hovering(pair.p, pair.q, frames, 500), overhead);
+        run_others(csv, pair, frames, overhead);
+    }
+    pir_polytope_release(sliver);
+    pir_polytope_release(extreme);
     pir_polytope *cube = bodies[0].polytope, *twenty = bodies[2].polytope, *gs4 = bodies[5].polytope;
     if (argc == 2 || std::string(argv[2]) == "rest") {
-        run(csv, "cube", "spinning", 500, cube, spinning(cube, cube, frames, 500, 0), overhead);
-        run(csv, "cube", "sunken", 500, cube, spinning(cube, cube, frames, 500, 1e-3), overhead);
-        run(csv, "gs4", "aligned", 500, gs4, aligned(gs4, gs4, frames, 0.98), overhead);
+        run(csv, {"cube", cube, cube}, "spinning", 500, q_stands(spinning(cube, cube, frames, 500, 0)), overhead);
+        run(csv, {"cube", cube, cube}, "sunken", 500, q_stands(spinning(cube, cube, frames, 500, 1e-3)), overhead);
+        run(csv, {"gs4", gs4, gs4}, "aligned", 500, q_stands(aligned(gs4, gs4, frames, 0.98)), overhead);
     }
     if (argc == 2 || std::string(argv[2]) == "many")
         for (int count : {10, 100, 1000, 10000})

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "scene.hpp"
+#include "pair_poses.hpp"
 
 class PairPeer {
   public:
@@ -17,8 +17,8 @@ class PairPeer {
     // Forgets what it keeps from frame to frame.
     virtual void forget() = 0;
 
-    // Places P and answers: the signed distance, or that of the deepest contact; HUGE_VAL for none.
-    virtual double ask(const Pose &pose) = 0;
+    // Places both and answers: the signed distance, or that of the deepest contact; HUGE_VAL for none.
+    virtual double ask(const Place &place) = 0;
 
     // Whether it stops at 2 % of the size and gives contacts.
     virtual bool has_manifold() const {

@@ -58,9 +58,13 @@ pir_vec3 unit(pir_vec3 v) {
     return {v.x * by, v.y * by, v.z * by};
 }
 
-} // namespace
+pir_vec3 turned(pir_quat r, pir_vec3 v) {
+    pir_quat t = product(product(r, {v.x, v.y, v.z, 0}), {-r.x, -r.y, -r.z, r.w});
+    return {t.x, t.y, t.z};
+}
 
-std::vector<Pose> hovering(pir_polytope *p, pir_polytope *q, int count, int steps) {
+// Along a direction that drifts, P turning: at `away` of the way to contact, and `swing` of the diameter about it.
+std::vector<Pose> drifting(pir_polytope *p, pir_polytope *q, int count, int steps, double away, double swing) {
     Random random;
     Contact contact(p, q);
     std::vector<Pose> poses;
@@ -75,10 +79,53 @@ std::vector<Pose> hovering(pir_polytope *p, pir_polytope *q, int count, int step
         r = normal(product(turn(axis, step), r));
         double drift = 0.5 * step;
         d = unit({d.x + drift * way.x, d.y + drift * way.y, d.z + drift * way.z});
-        double at = contact.along(r, d) + 0.05 * diameter * std::sin(2 * PI * i / 200);
+        double at = away * contact.along(r, d) + swing * diameter * std::sin(2 * PI * i / 200);
         poses.push_back({r, {at * d.x, at * d.y, at * d.z}});
     }
     return poses;
+}
+
+} // namespace
+
+std::vector<Pose> hovering(pir_polytope *p, pir_polytope *q, int count, int steps) {
+    return drifting(p, q, count, steps, 1, 0.05);
+}
+
+std::vector<Pose> away_from_contact(pir_polytope *p, pir_polytope *q, int count, int steps, double away) {
+    return drifting(p, q, count, steps, 1 + away, 0);
+}
+
+std::vector<Pose> teleports(const std::vector<Pose> &poses) {
+    std::vector<Pose> order;
+    // a prime that divides no usual count
+    for (size_t i = 0; i < poses.size(); i++)
+        order.push_back(poses[i * 1009 % poses.size()]);
+    return order;
+}
+
+std::vector<Place> q_stands(const std::vector<Pose> &poses) {
+    std::vector<Place> places;
+    for (const Pose &pose : poses)
+        places.push_back({pose, {{0, 0, 0, 1}, {0, 0, 0}}, pose});
+    return places;
+}
+
+std::vector<Place> both_move(const std::vector<Pose> &poses, int steps) {
+    Random random;
+    std::vector<Place> places;
+    pir_quat r{0.3, -0.1, 0.2, 0.9};
+    pir_vec3 axis{0, 0, 1}, way{1, 0, 0}, at{0, 0, 0};
+    for (size_t i = 0; i < poses.size(); i++) {
+        if (i % 50 == 0) {
+            axis = random.direction();
+            way = random.direction();
+        }
+        r = normal(product(turn(axis, 2 * PI / steps), r));
+        at = {at.x + 0.01 * way.x, at.y + 0.01 * way.y, at.z + 0.01 * way.z};
+        pir_vec3 t = turned(r, poses[i].t);
+        places.push_back({{normal(product(r, poses[i].r)), {at.x + t.x, at.y + t.y, at.z + t.z}}, {r, at}, poses[i]});
+    }
+    return places;
 }
 
 std::vector<Pose> spinning(pir_polytope *p, pir_polytope *q, int count, int steps, double depth) {
@@ -113,5 +160,17 @@ pir_polytope *sphere_points(int count) {
     std::vector<pir_vec3> points;
     for (int i = 0; i < count; i++)
         points.push_back(random.direction());
+    return from_points(points);
+}
+
+pir_polytope *sliver_points(int count) {
+    Random random;
+    std::vector<pir_vec3> points;
+    for (int i = 0; i < count / 2; i++) {
+        double angle = 4 * PI * i / count, bend = 0.01 * random.unit();
+        pir_vec3 at{std::cos(angle), std::sin(angle), bend}, beside = random.direction();
+        points.push_back(at);
+        points.push_back({at.x + 1e-4 * beside.x, at.y + 1e-4 * beside.y, at.z + 1e-4 * beside.z});
+    }
     return from_points(points);
 }

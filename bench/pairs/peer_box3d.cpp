@@ -40,11 +40,9 @@ class Box3d : public PairPeer {
     void forget() override {
         cache_ = {};
     }
-    double ask(const Pose &pose) override {
-        b3Transform at;
-        at.p = {(float)(by_ * pose.t.x), (float)(by_ * pose.t.y), (float)(by_ * pose.t.z)};
-        at.q.v = {(float)pose.r.x, (float)pose.r.y, (float)pose.r.z};
-        at.q.s = (float)pose.r.w;
+    double ask(const Place &place) override {
+        // as its world does, in floats
+        b3Transform at = b3InvMulTransforms(transform(place.q), transform(place.p));
         b3LocalManifoldPoint points[32];
         b3LocalManifold manifold = {};
         manifold.points = points;
@@ -56,6 +54,14 @@ class Box3d : public PairPeer {
     }
 
   private:
+    b3Transform transform(const Pose &pose) const {
+        b3Transform at;
+        at.p = {(float)(by_ * pose.t.x), (float)(by_ * pose.t.y), (float)(by_ * pose.t.z)};
+        at.q.v = {(float)pose.r.x, (float)pose.r.y, (float)pose.r.z};
+        at.q.s = (float)pose.r.w;
+        return at;
+    }
+
     double by_;
     b3HullData *p_, *q_;
     b3SATCache cache_;

@@ -51,14 +51,17 @@ class Coal : public PairPeer {
         solver_.gjk_tolerance = solver_.epa_tolerance = tolerance_;
         solver_.gjk_initial_guess = warm_ ? coal::GJKInitialGuess::CachedGuess : coal::GJKInitialGuess::DefaultGuess;
     }
-    double ask(const Pose &pose) override {
-        coal::Transform3s at(coal::Quatf(pose.r.w, pose.r.x, pose.r.y, pose.r.z),
-                             coal::Vec3s(pose.t.x, pose.t.y, pose.t.z));
+    double ask(const Place &place) override {
         coal::Vec3s p, q, n;
-        return solver_.shapeDistance(*p_, at, *q_, coal::Transform3s::Identity(), true, p, q, n);
+        return solver_.shapeDistance(*p_, transform(place.p), *q_, transform(place.q), true, p, q, n);
     }
 
   private:
+    static coal::Transform3s transform(const Pose &pose) {
+        return coal::Transform3s(coal::Quatf(pose.r.w, pose.r.x, pose.r.y, pose.r.z),
+                                 coal::Vec3s(pose.t.x, pose.t.y, pose.t.z));
+    }
+
     std::unique_ptr<Hull> p_, q_;
     bool warm_;
     double tolerance_;

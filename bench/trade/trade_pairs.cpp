@@ -78,7 +78,7 @@ class PairEngine : public Way {
         peer_->forget();
     }
     double frame(const Pose &pose) override {
-        double distance = peer_->ask(pose);
+        double distance = peer_->ask({pose, {{0, 0, 0, 1}, {0, 0, 0}}, pose});
         return distance == HUGE_VAL ? NAN : distance;
     }
 

@@ -14,6 +14,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exact/quat_product.h"
+#include "exact/wide.h"
+
 /* The greatest binary exponent among the components, as frexp gives it. */
 static int top_exponent(const double c[4]) {
     double most = fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fabs(c[2]), fabs(c[3])));
@@ -52,15 +55,9 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
  */
 static pir_status bring_near_one(pir_quat q, double c[4]) {
     const double given[4] = {q.x, q.y, q.z, q.w};
-    bool large = false, near = true;
-    for (int k = 0; k < 4; k++) {
-        double most = fabs(given[k]);
-        c[k] = given[k];
-        large |= most >= 0.5;
-        near &= most < 1 && (most == 0 || most >= 0x1p-900);
-    }
+    memcpy(c, given, sizeof given);
     // most quaternions are there already
-    if (large && near)
+    if (pir_quat_is_fit(q))
         return PIR_OK;
     for (int k = 0; k < 4; k++)
         if (!isfinite(given[k]))
@@ -78,69 +75,6 @@ static pir_status bring_near_one(pir_quat q, double c[4]) {
     return PIR_OK;
 }
 
-/* Components with their halves, of 26 bits each, for products without loss (Dekker, 1971). */
-struct halves {
-    double whole[4], high[4], low[4];
-};
-
-static struct halves split(const double c[4]) {
-    struct halves s;
-    for (int k = 0; k < 4; k++) {
-        double t = 134217729.0 * c[k]; // 2^27 + 1
-        s.whole[k] = c[k];
-        s.high[k] = t - (t - c[k]);
-        s.low[k] = c[k] - s.high[k];
-    }
-    return s;
-}
-
-/* Factors by component: which one of a, with what sign, and which one of b. */
-struct factors {
-    int a[4];
-    double sign[4];
-    int b[4];
-};
-
-/* Adds a product to each of four sums, and what rounding leaves of it and of the sum to `rest`. */
-static inline void add_products(const struct halves *a, const struct halves *b, struct factors of, double sum[4],
-                                double rest[4]) {
-    double p[4], p_high[4], p_low[4], q[4], q_high[4], q_low[4];
-    for (int k = 0; k < 4; k++) {
-        p[k] = of.sign[k] * a->whole[of.a[k]];
-        p_high[k] = of.sign[k] * a->high[of.a[k]];
-        p_low[k] = of.sign[k] * a->low[of.a[k]];
-        q[k] = b->whole[of.b[k]];
-        q_high[k] = b->high[of.b[k]];
-        q_low[k] = b->low[of.b[k]];
-    }
-    for (int k = 0; k < 4; k++) {
-        double product = p[k] * q[k];
-        double lost =
-            ((p_high[k] * q_high[k] - product) + p_high[k] * q_low[k] + p_low[k] * q_high[k]) + p_low[k] * q_low[k];
-        double s = sum[k] + product, t = s - sum[k];
-        rest[k] += ((sum[k] - (s - t)) + (product - t)) + lost;
-        sum[k] = s;
-    }
-}
-
-/*
- * The product conj(a)·b: for each component four products, in rows, with what rounding leaves of them and of their
- * sums added up beside (Ogita, Rump and Oishi, SIAM J. Scientific Computing 26, 2005). Off by u of itself and by some
- * u² of |a||b|. x: aw bx − ax bw − ay bz + az by, and so on round; w: aw bw + ax bx + ay by + az bz.
- */
-static void multiply_conjugate(const double a[4], const double b[4], double ret_product[4], double ret_rest[4]) {
-    const struct halves p = split(a), q = split(b);
-    double sum[4] = {0}, rest[4] = {0};
-    add_products(&p, &q, (struct factors){{3, 3, 3, 3}, {1, 1, 1, 1}, {0, 1, 2, 3}}, sum, rest);
-    add_products(&p, &q, (struct factors){{0, 1, 2, 1}, {-1, -1, -1, 1}, {3, 3, 3, 1}}, sum, rest);
-    add_products(&p, &q, (struct factors){{1, 2, 0, 2}, {-1, -1, -1, 1}, {2, 0, 1, 2}}, sum, rest);
-    add_products(&p, &q, (struct factors){{2, 0, 1, 0}, {1, 1, 1, 1}, {1, 2, 0, 0}}, sum, rest);
-    for (int k = 0; k < 4; k++) {
-        ret_product[k] = sum[k] + rest[k];
-        ret_rest[k] = rest[k] - (ret_product[k] - sum[k]);
-    }
-}
-
 /*
  * The effect on r of rounding the product's components, by u each: q is off by u of its length, and so, up to terms of
  * order u², is its direction, which M(q)/|q|² depends on alone. Unit quaternions at a distance c have matrices at
@@ -156,12 +90,12 @@ pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_qua
         status = bring_near_one(p, b);
     if (status != PIR_OK)
         return status;
-    double product[4], rest[4];
-    multiply_conjugate(a, b, product, rest);
-    status = pir_rotation_set(rotation, (pir_quat){product[0], product[1], product[2], product[3]});
+    const pir_quat_product product =
+        pir_quat_conjugate_times((pir_quat){a[0], a[1], a[2], a[3]}, (pir_quat){b[0], b[1], b[2], b[3]});
+    status = pir_rotation_set(rotation, product.whole);
     if (status != PIR_OK)
         return status;
-    rotation->rest = (pir_quat){rest[0], rest[1], rest[2], rest[3]};
+    rotation->rest = product.rest;
     rotation->relative = true;
     rotation->factor[0] = q;
     rotation->factor[1] = p;
@@ -186,6 +120,31 @@ static void set_integers(pir_quat given, pir_int q[4]) {
         pir_int_set_double(&q[k], c[k], low);
 }
 
+#if GMP_NUMB_BITS == 64
+/* The product, where the components of both factors are short, as they are unless one is far smaller than another. */
+static bool set_short_product(const pir_int a[4], const pir_int b[4], pir_int q[4]) {
+    int64_t c[4], d[4];
+    for (int k = 0; k < 4; k++)
+        if (!pir_int_get_short(&a[k], &c[k]) || !pir_int_get_short(&b[k], &d[k]))
+            return false;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        pir_int_set_two(&q[i], (pir_two_limbs)c[3] * d[i] - (pir_two_limbs)c[i] * d[3] - (pir_two_limbs)c[j] * d[k] +
+                                   (pir_two_limbs)c[k] * d[j]);
+    }
+    pir_int_set_two(&q[3], (pir_two_limbs)c[0] * d[0] + (pir_two_limbs)c[1] * d[1] + (pir_two_limbs)c[2] * d[2] +
+                               (pir_two_limbs)c[3] * d[3]);
+    return true;
+}
+#else
+static bool set_short_product(const pir_int a[4], const pir_int b[4], pir_int q[4]) {
+    (void)a;
+    (void)b;
+    (void)q;
+    return false;
+}
+#endif
+
 /* conj(a)·b in integers, each factor in limbs of its own. */
 static void set_product(const pir_quat factor[2], pir_int q[4]) {
     // and the product that pir_int_sum makes at a time
@@ -198,6 +157,8 @@ static void set_product(const pir_quat factor[2], pir_int q[4]) {
     }
     set_integers(factor[0], a);
     set_integers(factor[1], b);
+    if (set_short_product(a, b, q))
+        return;
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         const pir_term terms[4] = {
@@ -270,8 +231,46 @@ static bool set_short(pir_rotation_integers *to) {
     pir_int_set_two(&to->norm, norm);
     return true;
 }
+
+/* w² ± x² ± y² ± z² as set_diagonal has it. */
+static void set_two_diagonal(const pir_two_limbs q[4], pir_int *entry, int i) {
+    pir_int256 sum = {{0}};
+    for (int k = 0; k < 4; k++)
+        pir_int256_add_product(&sum, i < 3 && k != 3 && k != i ? -q[k] : q[k], q[k]);
+    pir_int_set_wide(entry, &sum);
+}
+
+/* 2 (q_i q_j ± w q_k). */
+static void set_two_entry(const pir_two_limbs q[4], pir_int *entry, int i, bool transposed) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    pir_int256 sum = {{0}};
+    pir_int256_add_product(&sum, 2 * q[i], q[j]);
+    pir_int256_add_product(&sum, transposed ? 2 * q[3] : -2 * q[3], q[k]);
+    pir_int_set_wide(entry, &sum);
+}
+
+/* M and |q|² where components are below 2^122, as those of a relative rotation mostly are; sums are below 2^246. */
+static bool set_two(pir_rotation_integers *to) {
+    pir_two_limbs q[4];
+    for (int k = 0; k < 4; k++)
+        if (!pir_int_get_two(&to->q[k], 122, &q[k]))
+            return false;
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3;
+        set_two_diagonal(q, &to->m[i][i], i);
+        set_two_entry(q, &to->m[i][j], i, false);
+        set_two_entry(q, &to->m[j][i], i, true);
+    }
+    set_two_diagonal(q, &to->norm, 3);
+    return true;
+}
 #else
 static bool set_short(pir_rotation_integers *to) {
+    (void)to;
+    return false;
+}
+
+static bool set_two(pir_rotation_integers *to) {
     (void)to;
     return false;
 }
@@ -297,7 +296,7 @@ void pir_rotation_make_exact(pir_rotation *rotation) {
         to->m[i / 3][i % 3] = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     to->norm = pir_limbs_take(&room, PIR_MATRIX_LIMBS);
     rotation->has_exact = true;
-    if (set_short(to))
+    if (set_short(to) || set_two(to))
         return;
     mp_limb_t product[PIR_MATRIX_LIMBS];
     pir_limbs scratch = {product, 0, PIR_MATRIX_LIMBS};

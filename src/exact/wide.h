@@ -61,6 +61,20 @@ static inline bool pir_int_get_two(const pir_int *a, uint32_t bits, pir_two_limb
     *ret_value = a->size < 0 ? -(pir_two_limbs)size : (pir_two_limbs)size;
     return true;
 }
+
+/* dst = a; room: four limbs. */
+static inline void pir_int_set_wide(pir_int *dst, const pir_int256 *a) {
+    const bool minus = a->limb[3] >> 63;
+    pir_int_check_room(dst->room, 4);
+    if (minus)
+        mpn_neg(dst->limb, a->limb, 4);
+    else
+        mpn_copyi(dst->limb, a->limb, 4);
+    int32_t length = 4;
+    while (length > 0 && dst->limb[length - 1] == 0)
+        length--;
+    dst->size = minus ? -length : length;
+}
 #endif
 
 #endif

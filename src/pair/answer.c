@@ -2,8 +2,8 @@
 /*
  * Queries on a pair. The first way that proves an answer ends the question:
  *
- *   - proof: the bodies were apart, and have moved too little since (query/proof/proof.h); no frame is made for that.
- *     Where it has been used up, they may be apart still along the direction of the last time (apart.c);
+ *   - proof: the bodies were apart, and have moved too little since (query/proof/proof.h). Where that has been used up,
+ *     they may be apart still along the direction of the last time (apart.c). No frame is made for either;
  *   - walk, depth, nearest, depth anew (query/answer/ladder.h), with facets from surfaces and axes (pair_depth.c);
  *   - whole: a query on the difference of the bodies, kept in the workspace.
  *
@@ -82,7 +82,10 @@ static pir_status ask_whole(pir_pair *pair, pir_workspace *workspace, const pir_
 static bool by_proof(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, int want) {
     const double radii = input->radius_p + input->radius_q, cutoff = input->cutoff > 0 ? input->cutoff : 0;
     const bool has_cutoff = (want & PIR_WANT_SEPARATION) || radii > 0;
-    if (!pir_pair_allows(pair, PIR_LEVEL_APART) || !pir_pair_stays_apart(pair, input, has_cutoff ? cutoff + radii : 0))
+    const double least = has_cutoff ? cutoff + radii : 0;
+    if (!pir_pair_allows(pair, PIR_LEVEL_APART) ||
+        !(pir_pair_stays_apart(pair, input, least) ||
+          (pair->has_axis && least < HUGE_VAL && pir_pair_apart(pair, workspace->walker, input, least))))
         return false;
     pir_result_clear(&workspace->answer);
     workspace->decided.kind = PIR_NO_PIECE;
@@ -124,11 +127,6 @@ static inline void set_task(pir_pair *pair, pir_workspace *workspace, const pir_
 /* The answer by less than the whole difference. */
 static bool by_need(pir_pair_task *asked) {
     pir_pair *pair = asked->pair;
-    if (pir_pair_allows(pair, PIR_LEVEL_APART) && pair->has_axis && pir_pair_apart(&asked->task)) {
-        pair->statistics.by_proof++;
-        pair->level = PIR_LEVEL_APART;
-        return true;
-    }
     switch (pir_task_answer(&asked->task)) {
     case PIR_WAY_WALK:
         pair->statistics.by_walk++;

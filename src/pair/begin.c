@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The beginning and the end of a call on a pair: the relative pose, and the way back to the world. */
+#include "exact/quat_product.h"
 #include "pair/pair.h"
 
 pir_pair_input pir_pair_input_default(void) {
@@ -20,9 +21,15 @@ __attribute__((noinline)) static void set_bodies(const pir_pair *pair, pir_works
 /* Sets Q's place. */
 __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, const pir_pose *q) {
     workspace->has_q = false;
-    pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
-    if (status != PIR_OK)
-        return status;
+    const pir_quat given = pir_quat_signed(q->rotation);
+    if (pir_quat_is_near_one(given)) {
+        const pir_rotation_doubles doubles = pir_doubles_as_given(given);
+        pir_rotation_set_doubles(&workspace->rotation_q, q->rotation, &doubles);
+    } else {
+        pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
+        if (status != PIR_OK)
+            return status;
+    }
     workspace->world.translation_q = q->translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
     workspace->is_turned = !pir_quat_is_identity(q->rotation);
@@ -32,8 +39,22 @@ __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, cons
     return PIR_OK;
 }
 
+/* Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled. */
+static inline bool set_relative_rotation(pir_workspace *workspace, pir_quat q, pir_quat p) {
+    if (!pir_quat_is_fit(q) || !pir_quat_is_fit(p))
+        return false;
+    const pir_quat_product product = pir_quat_conjugate_times(q, p);
+    // no shorter than 1/4
+    const pir_rotation_doubles doubles = pir_doubles_as_given(pir_quat_signed(product.whole));
+    pir_rotation_set_factors(&workspace->rotation, &product, q, p);
+    pir_frame_set_doubles(&workspace->frame, product.whole, product.rest, &doubles);
+    return true;
+}
+
 /* Sets P's rotation as Q sees it, where Q is turned or P's quaternion has to be scaled. */
 __attribute__((noinline)) static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    if (workspace->is_turned && set_relative_rotation(workspace, input->pose_q.rotation, input->pose_p.rotation))
+        return PIR_OK;
     pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
     workspace->frame.is_set = false;
     if (status == PIR_OK)
@@ -50,7 +71,7 @@ static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_i
         return set_any_rotation(workspace, input);
     const pir_rotation_doubles doubles = pir_doubles_as_given(given);
     pir_rotation_set_given(&workspace->rotation, given);
-    pir_frame_set_doubles(&workspace->frame, given, &doubles);
+    pir_frame_set_doubles(&workspace->frame, given, (pir_quat){0, 0, 0, 0}, &doubles);
     return PIR_OK;
 }
 
@@ -63,6 +84,8 @@ static pir_status set_place(const pir_pair *pair, pir_workspace *workspace, cons
     if (!workspace->posed)
         return pir_frame_place(&workspace->frame, input->pose_p.translation, &workspace->placement);
     workspace->world.translation_p = input->pose_p.translation;
+    if (pir_frame_place_near(&workspace->frame, &workspace->world, &workspace->placement))
+        return PIR_OK;
     return pir_frame_place_relative(&workspace->frame, &workspace->world, &workspace->placement);
 }
 
@@ -95,11 +118,17 @@ pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y) {
     return pir_vec_add(pir_mat_apply(&workspace->rotation_q.r, y), workspace->world.translation_q);
 }
 
+/* A vector that has just been stored, number by number, as `give` of answer.c reads it. */
+static inline pir_vec3 taken(const volatile pir_vec3 *from) {
+    return (pir_vec3){from->x, from->y, from->z};
+}
+
 void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result) {
-    bool has_points = result->normal.x != 0 || result->normal.y != 0 || result->normal.z != 0;
+    const pir_vec3 normal = taken(&result->normal), point = taken(&result->point_q);
+    bool has_points = normal.x != 0 || normal.y != 0 || normal.z != 0;
     if (!has_points)
         return;
-    result->normal = pir_mat_apply(&workspace->rotation_q.r, result->normal);
-    result->point_q = pir_pair_point_to_world(workspace, result->point_q);
+    result->normal = pir_mat_apply(&workspace->rotation_q.r, normal);
+    result->point_q = pir_pair_point_to_world(workspace, point);
     result->point_p = pir_vec_add(result->point_q, pir_vec_scale(result->normal, result->distance));
 }

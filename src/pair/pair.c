@@ -2,6 +2,8 @@
 /* The life of pairs and workspaces. */
 #include "pair/pair.h"
 
+#include <stdlib.h>
+
 #include "base/options.h"
 #include "base/processor.h"
 
@@ -70,6 +72,7 @@ static pir_status find_bodies(pir_polytope *p, pir_polytope *q, pir_pair *pair) 
     if (status != PIR_OK)
         return status;
     pair->exponent = pir_frame_exponent(of_p, of_q, reflected, q);
+    pair->down = abs(pair->exponent) < 1000 ? ldexp(1, -pair->exponent) : 0;
     pair->limbs = pir_exact_limbs(reflected, q);
     status = pir_kept_body_of(reflected, pair->exponent, &pair->body_p);
     if (status == PIR_OK)

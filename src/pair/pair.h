@@ -26,6 +26,7 @@ struct pir_pair {
     const pir_kept_body *body_p, *body_q; /* of P reflected, and of Q; they belong to p and q */
     const pir_axes *axes_p, *axes_q;      /* likewise; NULL where either has many */
     int exponent;                         /* one unit of the frame is 2^exponent */
+    double down;                          /* units of the frame in one of the world; 0 where that is no normal number */
     uint32_t limbs;                       /* that exact signs need */
     uint8_t levels, level;                /* those that the option allows, as a set; that of the last answer */
     uint8_t resting;                      /* how many more calls leave out the axes, since they told nothing */

@@ -26,8 +26,12 @@ bool pir_pair_is_outside(pir_task *task, double *ret_distance);
 /* The answer, where x is apart by more than the cutoff along the unit vector n: then that is the direction kept. */
 bool pir_pair_apart_along(pir_task *task, pir_vec3 n);
 
-/* The answer, where x is apart by more than the cutoff along the direction that is kept. */
-bool pir_pair_apart(pir_task *task);
+/*
+ * Whether the bodies are apart by more than a length of the world along the direction that is kept, or along others
+ * that it tells; that is the proof that is kept then. Takes no frame. False too where the input is wrong. The pair has
+ * such a direction, and the length is finite.
+ */
+bool pir_pair_apart(pir_pair *pair, const pir_walker *walker, const pir_pair_input *input, double least);
 
 /* --- pair_depth.c --- */
 

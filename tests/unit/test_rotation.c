@@ -65,6 +65,64 @@ static void integer_matrix_is_a_positive_multiple_of_the_rotation(void **state) 
     }
 }
 
+/* conj(a)·b of GMP's integers. */
+static void exact_product(oracle_quat a, oracle_quat b, oracle_quat to) {
+    static const int of_a[4][4] = {{3, 0, 1, 2}, {3, 1, 2, 0}, {3, 2, 0, 1}, {3, 0, 1, 2}};
+    static const int of_b[4][4] = {{0, 3, 2, 1}, {1, 3, 0, 2}, {2, 3, 1, 0}, {3, 0, 1, 2}};
+    static const int sign[4][4] = {{1, -1, -1, 1}, {1, -1, -1, 1}, {1, -1, -1, 1}, {1, 1, 1, 1}};
+    for (int k = 0; k < 4; k++) {
+        mpz_set_ui(to[k], 0);
+        for (int i = 0; i < 4; i++)
+            if (sign[k][i] > 0)
+                mpz_addmul(to[k], a[of_a[k][i]], b[of_b[k][i]]);
+            else
+                mpz_submul(to[k], a[of_a[k][i]], b[of_b[k][i]]);
+    }
+}
+
+/* A quaternion whose integers are short, or of two limbs, or longer. */
+static pir_quat factor_of_case(test_random *random, uint64_t i) {
+    const int low = i % 3 == 0 ? -2 : i % 3 == 1 ? -40 : -300;
+    return (pir_quat){test_random_scaled(random, low, 0), test_random_scaled(random, low, 0),
+                      test_random_scaled(random, low, 0), test_random_scaled(random, low, 0)};
+}
+
+static void integer_matrix_of_a_relative_rotation_is_that_of_the_product(void **state) {
+    (void)state;
+    for (uint64_t i = 0; i < 900; i++) {
+        test_random random = test_random_case("rotation relative", i);
+        pir_rotation_integers integers;
+        pir_rotation rotation = {.integers = &integers};
+        pir_quat a = factor_of_case(&random, i), b = factor_of_case(&random, i / 3);
+        assert_int_equal(pir_rotation_set_relative(&rotation, a, b), PIR_OK);
+        pir_rotation_make_exact(&rotation);
+        oracle_quat of_a, of_b, product;
+        oracle_vec column;
+        mpz_t square, entry, norm;
+        oracle_quat_init(of_a, a);
+        oracle_quat_init(of_b, b);
+        oracle_quat_init(product, a);
+        oracle_vec_init(column);
+        mpz_inits(square, entry, norm, NULL);
+        exact_product(of_a, of_b, product);
+        test_int_get(norm, &integers.norm);
+        for (int c = 0; c < 3; c++) {
+            exact_column(product, c, column, square);
+            for (int r = 0; r < 3; r++) {
+                test_int_get(entry, &integers.m[r][c]);
+                mpz_mul(entry, entry, square);
+                mpz_mul(column[r], column[r], norm);
+                expect(mpz_cmp(entry, column[r]) == 0, "case %llu: entry %d %d", (unsigned long long)i, r, c);
+            }
+        }
+        mpz_clears(square, entry, norm, NULL);
+        oracle_vec_clear(column);
+        oracle_quat_clear(product);
+        oracle_quat_clear(of_b);
+        oracle_quat_clear(of_a);
+    }
+}
+
 static void double_matrix_is_within_its_bound(void **state) {
     (void)state;
     double worst = 0;
@@ -188,6 +246,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integer_matrix_is_a_positive_multiple_of_the_rotation),
+        cmocka_unit_test(integer_matrix_of_a_relative_rotation_is_that_of_the_product),
         cmocka_unit_test(double_matrix_is_within_its_bound),
         cmocka_unit_test(angle_bound_is_never_below_the_turn_and_close_for_small_ones),
         cmocka_unit_test(bad_quaternions_are_refused_and_change_nothing),

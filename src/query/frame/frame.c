@@ -49,12 +49,6 @@ static pir_dd3 dd_turn(pir_quat q, pir_quat rest, bool back, const pir_dd3 *v) {
     return turned;
 }
 
-/*
- * The error of a translation that is turned in doubles, relative to its length: u = 2^-53 for its rounding, 31u for the
- * matrix, 6u for the product and the sum, together below 64u.
- */
-#define TURN_ERROR 0x1p-47
-
 /* a · num/den as m · 2^*ret_exponent. */
 static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent) {
     int e, num, den;
@@ -212,12 +206,6 @@ bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation) {
     return true;
 }
 
-/* x for a difference t of translations that is not much longer than the bodies. */
-static pir_vec3 turn_near(const pir_frame *frame, const pir_world *world, pir_vec3 t) {
-    pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, t);
-    return pir_dd3_add_rounded(pir_dd3_negate(frame->offset), turned);
-}
-
 /* x for any t. */
 static pir_vec3 turn_far(const pir_frame *frame, const pir_world *world, const pir_dd3 *t) {
     const pir_dd3 turned = dd_turn(world->rotation_q->given, (pir_quat){0, 0, 0, 0}, true, t);
@@ -232,16 +220,14 @@ pir_status pir_frame_place_relative(const pir_frame *frame, const pir_world *wor
         return PIR_ERR_NOT_FINITE;
     if (pir_world_is_plain(world))
         return pir_frame_place(frame, world->translation_p, ret_placement);
+    if (pir_frame_place_near(frame, world, ret_placement))
+        return PIR_OK;
     pir_vec3 to = pir_frame_units(frame, world->translation_p), from = pir_frame_units(frame, world->translation_q);
     if (!pir_frame_is_near(to) || !pir_frame_is_near(from))
         return PIR_ERR_LIMIT;
     pir_dd3 t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
-    pir_vec3 near = pir_dd3_round(t);
-    bool turns_by_doubles = pir_vec_taxicab(near) <= 4 * (frame->p.size + frame->q.size);
     ret_placement->translation = world->translation_p;
-    ret_placement->x = turns_by_doubles ? turn_near(frame, world, near) : turn_far(frame, world, &t);
+    ret_placement->x = turn_far(frame, world, &t);
     pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
-    if (turns_by_doubles)
-        ret_placement->error += TURN_ERROR * pir_vec_taxicab(near);
     return PIR_OK;
 }

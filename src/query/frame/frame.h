@@ -140,14 +140,15 @@ static inline void pir_frame_set_offset(pir_frame *frame) {
 }
 
 /*
- * Sets a rotation that the frame may be at already. It is not relative. Where P's middle is at its origin the offset
- * is that of the bodies.
+ * Sets a rotation that the frame may be at already; of one that is not relative `rest` is 0. Where P's middle is at its
+ * origin the offset is that of the bodies.
  */
-static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, const pir_rotation_doubles *doubles) {
+static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, pir_quat rest,
+                                         const pir_rotation_doubles *doubles) {
     frame->is_set = true;
     frame->given = given;
     frame->unit = doubles->unit;
-    frame->rest = (pir_quat){0, 0, 0, 0};
+    frame->rest = rest;
     frame->r = doubles->r;
     if (frame->p.far > 0)
         pir_frame_set_offset(frame);
@@ -184,6 +185,33 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
         ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
     pir_frame_set_reach(frame, fabs(t.x) + fabs(t.y) + fabs(t.z), ret_placement);
     return PIR_OK;
+}
+
+/*
+ * The error of a translation that is turned in doubles, relative to its length: u = 2^-53 for its rounding, 31u for the
+ * matrix, 6u for the product and the sum, together below 64u.
+ */
+#define PIR_TURN_ERROR 0x1p-47
+
+/*
+ * Places P as Q sees it, where Q is not at the identity and the difference of translations is not much longer than the
+ * bodies. False elsewhere, and where translations may be wrong.
+ */
+static inline bool pir_frame_place_near(const pir_frame *frame, const pir_world *world, pir_placement *ret_placement) {
+    const pir_vec3 to = pir_frame_units(frame, world->translation_p);
+    const pir_vec3 from = pir_frame_units(frame, world->translation_q);
+    const pir_dd x = pir_dd_two_sum(to.x, -from.x), y = pir_dd_two_sum(to.y, -from.y),
+                 z = pir_dd_two_sum(to.z, -from.z);
+    const pir_vec3 near = {x.hi + x.lo, y.hi + y.lo, z.hi + z.lo};
+    if (!pir_frame_is_near(to) || !pir_frame_is_near(from) ||
+        !(pir_vec_taxicab(near) <= 4 * (frame->p.size + frame->q.size)))
+        return false;
+    const pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, near);
+    ret_placement->translation = world->translation_p;
+    ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), turned);
+    pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
+    ret_placement->error += PIR_TURN_ERROR * pir_vec_taxicab(near);
+    return true;
 }
 
 /*

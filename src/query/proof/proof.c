@@ -2,31 +2,11 @@
 /* Bodies that are apart still: see proof.h. */
 #include "query/proof/proof.h"
 
-/* The most that |q|² of a quaternion may differ from 1, so that none has to be brought to length 1. */
-#define NEAR_UNIT 0x1p-20
-
 /*
  * The error of a difference of two such quaternions, brought to length 1: |q| is within 2^-21 and some
  * rounding of 1, so each moves by less than 2^-20, and both by less than 2^-19.
  */
 #define BESIDE_UNIT 0x1p-18
-
-/* Distances are known this well, relative to a bound on the reach: more than PIR_DISTANCE_ERROR of the reach. */
-#define ERROR 0x1p-40
-
-/* Beyond this reach nothing is decided here. */
-#define FARTHEST 0x1p300
-
-static bool is_near_unit(pir_quat q) {
-    return fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) <= NEAR_UNIT;
-}
-
-/* Whether a component may be too small for a relative rotation. */
-static bool has_tiny(pir_quat q) {
-    const double least = 0x1p-800;
-    return (q.x != 0 && fabs(q.x) < least) || (q.y != 0 && fabs(q.y) < least) || (q.z != 0 && fabs(q.z) < least) ||
-           (q.w != 0 && fabs(q.w) < least);
-}
 
 /* The square of the distance of two quaternions; of those that are each other's opposite it is far too great. */
 static double square_chord(pir_quat a, pir_quat b) {
@@ -53,7 +33,7 @@ static bool leaves_some(const pir_body *body, const pir_pose *from, const pir_po
 
 /* Whether a body that was accepted at one pose is at another, whose rotation a relative rotation can be made of. */
 static bool is_plain_turn(const pir_pose *from, const pir_pose *to) {
-    return is_near_unit(from->rotation) && is_near_unit(to->rotation) && !has_tiny(to->rotation);
+    return pir_quat_is_near_unit(from->rotation) && pir_quat_is_plain(to->rotation);
 }
 
 bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const pir_body *q, const pir_pose *at_p,
@@ -68,7 +48,7 @@ bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const 
     leeway += gone_along(proof, &proof->p, at_p, &way);
     if (!q_stands)
         leeway -= gone_along(proof, &proof->q, at_q, &way);
-    leeway -= ERROR * way;
-    return reach < FARTHEST && leaves_some(p, &proof->p, at_p, &leeway) && is_plain_turn(&proof->p, at_p) &&
+    leeway -= PIR_PROOF_ERROR * way;
+    return reach < PIR_PROOF_FARTHEST && leaves_some(p, &proof->p, at_p, &leeway) && is_plain_turn(&proof->p, at_p) &&
            (q_stands || (leaves_some(q, &proof->q, at_q, &leeway) && is_plain_turn(&proof->q, at_q)));
 }

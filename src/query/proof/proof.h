@@ -40,6 +40,29 @@ static inline bool pir_pose_is_same(const pir_pose *a, const pir_pose *b) {
             pir_bits_apart(t->z, u->z)) == 0;
 }
 
+/* The most that |q|² of a quaternion may differ from 1, so that none has to be brought to length 1. */
+#define PIR_NEAR_UNIT 0x1p-20
+
+/* Distances are known this well, relative to a bound on the reach: more than PIR_DISTANCE_ERROR of the reach. */
+#define PIR_PROOF_ERROR 0x1p-40
+
+/* Beyond this reach nothing is decided by proofs. */
+#define PIR_PROOF_FARTHEST 0x1p300
+
+static inline bool pir_quat_is_near_unit(pir_quat q) {
+    return fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) <= PIR_NEAR_UNIT;
+}
+
+/* Whether a component is no 0 and may be too small for a relative rotation. */
+static inline bool pir_is_tiny(double c) {
+    return (c != 0) & (fabs(c) < 0x1p-800);
+}
+
+/* Whether a rotation, and a relative one, can be made of it as it is. */
+static inline bool pir_quat_is_plain(pir_quat q) {
+    return pir_quat_is_near_unit(q) && !(pir_is_tiny(q.x) || pir_is_tiny(q.y) || pir_is_tiny(q.z) || pir_is_tiny(q.w));
+}
+
 /*
  * Whether the bodies are apart at other poses by more than `least`, a length of the world. False too where the proof
  * does not tell, and where a pose may be no valid one.

@@ -65,6 +65,9 @@ typedef struct pir_walker {
      * it.
      */
     void (*supports)(const pir_frame *frame, pir_vec3 n, uint32_t *a, uint32_t *b, pir_vec3 *ret_back);
+
+    /* The vertex of one body that such a climb from `from` ends at, along n as that body has it. */
+    uint32_t (*support)(const pir_body *body, pir_vec3 n, uint32_t from);
 } pir_walker;
 
 /* Sets the slack, as pir_facet_measure gives it, and the touch. */

@@ -311,4 +311,8 @@ WALK_TARGET static void find_supports(const pir_frame *frame, pir_vec3 n, uint32
     *b = climb(&frame->q, n, *b);
 }
 
-const pir_walker WALK_NAME = {prove_piece, follow_foot, find_supports};
+WALK_TARGET static uint32_t find_support(const pir_body *body, pir_vec3 n, uint32_t from) {
+    return climb(body, n, from);
+}
+
+const pir_walker WALK_NAME = {prove_piece, follow_foot, find_supports, find_support};
