@@ -1,6 +1,6 @@
 # Points that doubles turn and move: boxes, rays, meshes. u = 2^-53.
 # proves: src/scene/world/bodies.c "below 64u" 64 >= 46
-# proves: src/query/frame/frame.c "#define TURN_ERROR 0x1p-47" 64 >= 46
+# proves: src/query/frame/frame.h "#define PIR_TURN_ERROR 0x1p-47" 64 >= 46
 # proves: src/scene/query/scene_ray.c "#define SEEN_ERROR 0x1p-47" 64 >= 63
 # proves: src/mesh/pair/mesh_frame.c "below 2^-46 of `size`" 128 >= 125
 # proves: src/solid/space/rest.c "a turned direction is within 2^-47" 64 >= 54
