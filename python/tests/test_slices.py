@@ -48,6 +48,17 @@ def test_classified_poses_are_never_wrong(space):
     assert one.verdict.shape == () and one.verdict == found.verdict[7]
     with pytest.raises(pirouette.InputError, match=r"poses\[1\]"):
         space.classify([[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 0, 0, 0, 0]])
+    assert np.array_equal(space.verdicts(poses), found.verdict)
+    poses[[3, 8], [0, 5]] = np.nan
+    rest, some = np.delete(np.arange(len(poses)), [3, 8]), space.classify(poses, bad="nan")
+    assert (some.verdict[[3, 8]] == 255).all() and np.isnan(some.turn[[3, 8]]).all()
+    assert np.array_equal(some.verdict, space.verdicts(poses, bad="nan"))
+    for before, now in zip(found, some):
+        assert np.array_equal(before[rest], now[rest])
+    with pytest.raises(pirouette.InputError, match=r"poses\[3\]"):
+        space.verdicts(poses)
+    with pytest.raises(pirouette.InputError, match="bad"):
+        space.verdicts(poses, bad="none")
 
 
 @needs_slices
