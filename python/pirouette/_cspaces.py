@@ -21,9 +21,9 @@ Bodies = Union[Body, Solid, Pieces, Sequence[Polytope]]
 
 
 class Configurations(NamedTuple):
-    """Answers at poses, exact: `verdict` is 1 free, 2 blocked, 255 of a bad pose. Where the rotation is one of the grid, `on_grid`,
-    `state` is 0 outside, 1 touching, 2 overlapping. `robot` and `obstacle` tell which pieces it rests on, `slice` the
-    nearest rotation, `turn` the radians from there to the pose."""
+    """Answers at poses, exact: `verdict` is 1 free, 2 blocked, 255 of a bad pose. Where the rotation is one of the
+    grid, `on_grid`, `state` is 0 outside, 1 touching, 2 overlapping. `robot` and `obstacle` tell which pieces it rests
+    on, `slice` the nearest rotation, `turn` the radians from there to the pose."""
 
     verdict: Bytes
     state: Bytes
