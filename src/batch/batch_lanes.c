@@ -40,31 +40,57 @@ static pir_status make_threads(const pir_pair_batch_options *options, pir_batch_
     return status;
 }
 
-pir_status pir_batch_lanes_init(const pir_pair_batch_options *options, pir_batch_lanes *lanes) {
+/* Sets lanes of zeros; what is there after an error is ended by pir_batch_lanes_destroy. */
+static pir_status fill(const void *p, const void *q, const pir_pair_batch_options *options, pir_batch_lanes *lanes) {
+    lanes->run = options->run;
+    lanes->lane = PIR_ZEROED(&lanes->allocator, pir_batch_lane, options->threads);
+    if (!lanes->lane)
+        return PIR_ERR_MEMORY;
+    lanes->threads = options->threads;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < lanes->threads && status == PIR_OK; i++) {
+        status = pir_workspace_create(&lanes->allocator, &lanes->lane[i].workspace);
+        if (status == PIR_OK)
+            status = lanes->kind->make(p, q, &lanes->allocator, &lanes->lane[i].object);
+    }
+    return status == PIR_OK ? make_threads(options, lanes) : status;
+}
+
+pir_status pir_batch_lanes_create(const pir_batch_kind *kind, const void *p, const void *q,
+                                  const pir_pair_batch_options *options, pir_batch_lanes **ret_lanes) {
     pir_pair_batch_options used = pir_pair_batch_options_default();
-    *lanes = (pir_batch_lanes){0};
     pir_status status = pir_options_take("pir_pair_batch_options", options, &used, NULL);
     if (status != PIR_OK)
         return status;
-    if (used.threads < 1 || used.threads > THREADS_MAX || (used.tasks && (!used.tasks->start || !used.tasks->finish)))
+    if (!p || !q || !ret_lanes || used.threads < 1 || used.threads > THREADS_MAX ||
+        (used.tasks && (!used.tasks->start || !used.tasks->finish)))
         return PIR_ERR_ARGUMENT;
-    lanes->allocator = pir_allocator_or_default(used.allocator);
-    lanes->run = used.run;
-    lanes->lane = PIR_ZEROED(&lanes->allocator, pir_batch_lane, used.threads);
-    if (!lanes->lane)
+    const pir_allocator allocator = pir_allocator_or_default(used.allocator);
+    pir_batch_lanes *lanes = PIR_ZEROED(&allocator, pir_batch_lanes, 1);
+    if (!lanes)
         return PIR_ERR_MEMORY;
-    lanes->threads = used.threads;
-    for (uint32_t i = 0; i < lanes->threads && status == PIR_OK; i++)
-        status = pir_workspace_create(&lanes->allocator, &lanes->lane[i].workspace);
-    return status == PIR_OK ? make_threads(&used, lanes) : status;
+    lanes->kind = kind;
+    lanes->allocator = allocator;
+    status = fill(p, q, &used, lanes);
+    if (status == PIR_OK)
+        *ret_lanes = lanes;
+    else
+        pir_batch_lanes_destroy(lanes);
+    return status;
 }
 
-void pir_batch_lanes_finish(pir_batch_lanes *lanes) {
+void pir_batch_lanes_destroy(pir_batch_lanes *lanes) {
+    if (!lanes)
+        return;
+    const pir_allocator allocator = lanes->allocator;
     pir_task_pool_destroy(lanes->pool);
-    for (uint32_t i = 0; i < lanes->threads; i++)
+    for (uint32_t i = 0; i < lanes->threads; i++) {
+        lanes->kind->destroy(lanes->lane[i].object);
         pir_workspace_destroy(lanes->lane[i].workspace);
+    }
     if (lanes->lane)
-        PIR_FREE(&lanes->allocator, lanes->lane, lanes->threads);
+        PIR_FREE(&allocator, lanes->lane, lanes->threads);
+    PIR_FREE(&allocator, lanes, 1);
 }
 
 static void work(void *data, uint32_t task) {
@@ -118,14 +144,6 @@ void pir_batch_lanes_ask(pir_batch_lanes *lanes, pir_batch_answerer *answer, con
     }
     if (ret_summary)
         *ret_summary = sum_up(lanes, count);
-}
-
-static bool is_stride(size_t stride, size_t numbers) {
-    return stride == 0 || (stride % sizeof(double) == 0 && stride >= numbers * sizeof(double));
-}
-
-bool pir_pose_array_is_good(const pir_pose_array *array) {
-    return is_stride(array->rotation_stride, 4) && is_stride(array->translation_stride, 3);
 }
 
 pir_status pir_batch_check_input(const pir_pair_batch_input *input) {

@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-#include "base/memory.h"
 #include "batch/batch_lanes.h"
 
 struct pir_solid_query_batch {
@@ -28,45 +27,30 @@ typedef struct solid_job {
     const pir_solid_query_batch_arrays *arrays;
 } solid_job;
 
-static pir_status make_queries(const pir_pieces *p, const pir_pieces *q, pir_batch_lanes *lanes) {
-    pir_status status = PIR_OK;
-    for (uint32_t i = 0; i < lanes->threads && status == PIR_OK; i++) {
-        pir_solid_query *query = NULL;
-        status = pir_solid_query_create(p, q, &lanes->allocator, &query);
-        lanes->lane[i].object = query;
-    }
+static pir_status make(const void *p, const void *q, const pir_allocator *allocator, void **ret_object) {
+    pir_solid_query *query = NULL;
+    const pir_status status = pir_solid_query_create(p, q, allocator, &query);
+    *ret_object = query;
     return status;
 }
 
+static void destroy(void *object) {
+    pir_solid_query_destroy(object);
+}
+
+static const pir_batch_kind kind = {make, destroy};
+
 pir_status pir_solid_query_batch_create(const pir_pieces *p, const pir_pieces *q, const pir_pair_batch_options *options,
                                         pir_solid_query_batch **ret_batch) {
-    pir_batch_lanes lanes = {0};
-    pir_status status = pir_batch_lanes_init(options, &lanes);
-    if (status == PIR_OK && (!p || !q || !ret_batch))
-        status = PIR_ERR_ARGUMENT;
-    pir_solid_query_batch *batch = status == PIR_OK ? PIR_ZEROED(&lanes.allocator, pir_solid_query_batch, 1) : NULL;
-    if (!batch) {
-        pir_batch_lanes_finish(&lanes);
-        return status == PIR_OK ? PIR_ERR_MEMORY : status;
-    }
-    batch->lanes = lanes;
-    status = make_queries(p, q, &batch->lanes);
-    if (status != PIR_OK) {
-        pir_solid_query_batch_destroy(batch);
-        return status;
-    }
-    *ret_batch = batch;
-    return PIR_OK;
+    pir_batch_lanes *lanes = NULL;
+    const pir_status status = pir_batch_lanes_create(&kind, p, q, options, ret_batch ? &lanes : NULL);
+    if (status == PIR_OK)
+        *ret_batch = (pir_solid_query_batch *)lanes;
+    return status;
 }
 
 void pir_solid_query_batch_destroy(pir_solid_query_batch *batch) {
-    if (!batch)
-        return;
-    const pir_allocator a = batch->lanes.allocator;
-    for (uint32_t i = 0; i < batch->lanes.threads; i++)
-        pir_solid_query_destroy(batch->lanes.lane[i].object);
-    pir_batch_lanes_finish(&batch->lanes);
-    PIR_FREE(&a, batch, 1);
+    pir_batch_lanes_destroy((pir_batch_lanes *)batch);
 }
 
 static pir_status ask_overlap(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,

@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-#include "base/memory.h"
 #include "batch/batch_lanes.h"
 
 struct pir_trimesh_pair_batch {
@@ -20,47 +19,33 @@ typedef struct trimesh_job {
     const pir_trimesh_pair_batch_arrays *arrays;
 } trimesh_job;
 
-static pir_status make_pairs(pir_trimesh *p, pir_trimesh *q, pir_batch_lanes *lanes) {
+static pir_status make(const void *p, const void *q, const pir_allocator *allocator, void **ret_object) {
     pir_trimesh_pair_options options = pir_trimesh_pair_options_default();
-    options.allocator = &lanes->allocator;
-    pir_status status = PIR_OK;
-    for (uint32_t i = 0; i < lanes->threads && status == PIR_OK; i++) {
-        pir_trimesh_pair *pair = NULL;
-        status = pir_trimesh_pair_create(p, q, &options, &pair);
-        lanes->lane[i].object = pair;
-    }
+    pir_trimesh_pair *pair = NULL;
+    options.allocator = allocator;
+    // a pair takes references, which is no change of what the meshes say
+    const pir_status status = pir_trimesh_pair_create((pir_trimesh *)p, (pir_trimesh *)q, &options, &pair);
+    *ret_object = pair;
     return status;
 }
 
+static void destroy(void *object) {
+    pir_trimesh_pair_destroy(object);
+}
+
+static const pir_batch_kind kind = {make, destroy};
+
 pir_status pir_trimesh_pair_batch_create(pir_trimesh *p, pir_trimesh *q, const pir_pair_batch_options *options,
                                          pir_trimesh_pair_batch **ret_batch) {
-    pir_batch_lanes lanes = {0};
-    pir_status status = pir_batch_lanes_init(options, &lanes);
-    if (status == PIR_OK && (!p || !q || !ret_batch))
-        status = PIR_ERR_ARGUMENT;
-    pir_trimesh_pair_batch *batch = status == PIR_OK ? PIR_ZEROED(&lanes.allocator, pir_trimesh_pair_batch, 1) : NULL;
-    if (!batch) {
-        pir_batch_lanes_finish(&lanes);
-        return status == PIR_OK ? PIR_ERR_MEMORY : status;
-    }
-    batch->lanes = lanes;
-    status = make_pairs(p, q, &batch->lanes);
-    if (status != PIR_OK) {
-        pir_trimesh_pair_batch_destroy(batch);
-        return status;
-    }
-    *ret_batch = batch;
-    return PIR_OK;
+    pir_batch_lanes *lanes = NULL;
+    const pir_status status = pir_batch_lanes_create(&kind, p, q, options, ret_batch ? &lanes : NULL);
+    if (status == PIR_OK)
+        *ret_batch = (pir_trimesh_pair_batch *)lanes;
+    return status;
 }
 
 void pir_trimesh_pair_batch_destroy(pir_trimesh_pair_batch *batch) {
-    if (!batch)
-        return;
-    const pir_allocator a = batch->lanes.allocator;
-    for (uint32_t i = 0; i < batch->lanes.threads; i++)
-        pir_trimesh_pair_destroy(batch->lanes.lane[i].object);
-    pir_batch_lanes_finish(&batch->lanes);
-    PIR_FREE(&a, batch, 1);
+    pir_batch_lanes_destroy((pir_batch_lanes *)batch);
 }
 
 static void write_answer(const pir_trimesh_pair_batch_arrays *to, size_t i, pir_status status,

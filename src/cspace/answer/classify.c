@@ -2,6 +2,7 @@
 /* Poses and motions, asked of a file of slices. What is kept between calls is made by the first one. */
 #include <math.h>
 
+#include "base/pose_array.h"
 #include "base/report.h"
 #include "cspace/answer/pose_motion.h"
 #include "cspace/read/cspace.h"
@@ -48,22 +49,6 @@ pir_status pir_cspace_classify(pir_cspace *cspace, const pir_pose *pose, pir_rep
 
 /* --- many poses --- */
 
-static bool is_stride(size_t stride, size_t numbers) {
-    return stride == 0 || (stride % sizeof(double) == 0 && stride >= numbers * sizeof(double));
-}
-
-static void read_pose(const pir_pose_array *array, size_t index, pir_pose *ret_pose) {
-    const size_t i = array->is_one ? 0 : index;
-    const size_t rotation_stride = array->rotation_stride ? array->rotation_stride : 4 * sizeof(double);
-    const size_t translation_stride = array->translation_stride ? array->translation_stride : 3 * sizeof(double);
-    *ret_pose = (pir_pose){{0, 0, 0, 1}, {0, 0, 0}};
-    if (array->rotations)
-        memcpy(&ret_pose->rotation, (const char *)array->rotations + i * rotation_stride, sizeof ret_pose->rotation);
-    if (array->translations)
-        memcpy(&ret_pose->translation, (const char *)array->translations + i * translation_stride,
-               sizeof ret_pose->translation);
-}
-
 /* Writes what became of a pose; `status` is that of the pose, and where it is bad there is no answer. */
 static void write_answer(const pir_cspace_arrays *to, size_t i, pir_status status, const pir_configuration *answer) {
     const bool good = status == PIR_OK;
@@ -90,7 +75,7 @@ pir_status pir_cspace_classify_many(pir_cspace *cspace, const pir_pose_array *po
                                     pir_pair_batch_summary *ret_summary) {
     if (!cspace || !poses || !arrays)
         return pir_fail(report, PIR_ERR_ARGUMENT, "slices: no file, no poses, or nowhere to put the answers");
-    if (!is_stride(poses->rotation_stride, 4) || !is_stride(poses->translation_stride, 3))
+    if (!pir_pose_array_is_good(poses))
         return pir_fail(report, PIR_ERR_ARGUMENT,
                         "slices: a stride of poses is no multiple of 8, or shorter than an element");
     pir_answers *answers = NULL;
@@ -100,10 +85,10 @@ pir_status pir_cspace_classify_many(pir_cspace *cspace, const pir_pose_array *po
     const bool of_grid = arrays->state || arrays->on_grid || arrays->slice || arrays->turn;
     pir_pair_batch_summary summary = {0, count, PIR_OK};
     for (size_t i = 0; i < count; i++) {
-        pir_pose pose;
+        pir_pose pose = {{0, 0, 0, 1}, {0, 0, 0}};
         pir_configuration answer;
         double gap;
-        read_pose(poses, i, &pose);
+        pir_pose_array_get(poses, i, &pose);
         const pir_status status =
             pir_answers_classify(answers, &pose, of_grid ? PIR_WISH_PLACE : PIR_WISH_VERDICT, NULL, &answer, &gap);
         write_answer(arrays, i, status, &answer);
