@@ -127,7 +127,7 @@ static void name_vertices(pir_sum_boundary *b) {
         name(b, b->points.point[i]);
 }
 
-void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body[2], const pir_convexes convexes[2],
+void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body[2], pir_convexes convexes[2],
                            bool open) {
     *boundary = (pir_sum_boundary){.space = body[0].space};
     pir_remains_make(&boundary->remains, body, convexes, open);

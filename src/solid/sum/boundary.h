@@ -24,7 +24,7 @@ typedef struct pir_sum_boundary {
 } pir_sum_boundary;
 
 /* The status is the space's. What is there after a failure is to be finished. */
-void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body[2], const pir_convexes convexes[2],
+void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body[2], pir_convexes convexes[2],
                            bool open);
 void pir_sum_boundary_finish(pir_sum_boundary *boundary);
 

@@ -51,7 +51,7 @@ static void add_edge(pir_convexes *c, uint32_t a, uint32_t b, uint32_t left, uin
     pir_numbers_cross(cross, space->number + space->direction[left].exact,
                       space->number + space->direction[right].exact);
     c->edge[c->edge_count++] =
-        (pir_convex_edge){a, b, pir_space_add_direction(space, cross[0], cross[1], cross[2]), {left, right}};
+        (pir_convex_edge){a, b, pir_space_add_direction(space, cross[0], cross[1], cross[2]), {left, right}, {0, 0}};
     c->convex[c->count - 1].edge_count++;
 }
 
@@ -83,6 +83,19 @@ static void add_face(pir_convexes *c, const pir_cells *cells, pir_cell cell, con
     }
 }
 
+/* Names the faces of a piece beside its edges, once all are there. */
+static void find_faces(pir_convexes *c, const pir_convex *convex) {
+    for (uint32_t e = convex->edge; e < convex->edge + convex->edge_count; e++)
+        for (int side = 0; side < 2; side++) {
+            uint32_t f = 0;
+            while (f < convex->face_count && c->face[convex->face + f].normal != c->edge[e].normal[side])
+                f++;
+            if (f == convex->face_count)
+                pir_space_fault(c->space);
+            c->edge[e].face[side] = f;
+        }
+}
+
 void pir_convexes_make(pir_convexes *convexes, const pir_cells *cells, const pir_piece_list *pieces) {
     pir_convexes *c = convexes;
     *c = (pir_convexes){.space = cells->space};
@@ -94,6 +107,13 @@ void pir_convexes_make(pir_convexes *convexes, const pir_cells *cells, const pir
         const pir_cell cell = cells->cell[pieces->cell[i]];
         for (uint32_t f = cell.first; f < cell.first + cell.count && c->space->status == PIR_OK; f++)
             add_face(c, cells, cell, &cells->face[f]);
+        const pir_convex *made = &c->convex[c->count - 1];
+        if (c->space->status != PIR_OK)
+            return;
+        find_faces(c, made);
+        if (made->face_count > 0 &&
+            !pir_space_grow(c->space, (void **)&c->side, &c->side_room, made->face_count - 1, sizeof *c->side))
+            return;
     }
 }
 
@@ -114,6 +134,7 @@ void pir_convexes_finish(pir_convexes *convexes) {
     pir_space_shrink(c->space, c->vertex, c->vertex_room, sizeof *c->vertex);
     pir_space_shrink(c->space, c->face, c->face_room, sizeof *c->face);
     pir_space_shrink(c->space, c->edge, c->edge_room, sizeof *c->edge);
+    pir_space_shrink(c->space, c->side, c->side_room, sizeof *c->side);
     pir_space_shrink(c->space, c->normal_of, c->normal_room, sizeof *c->normal_of);
     *c = (pir_convexes){0};
 }
@@ -144,21 +165,32 @@ static int passes(pir_space *space, const pir_convex_edge *edge, uint32_t direct
     return right != 0 && pir_space_dot(space, edge->normal[0], direction) == -right ? right : 0;
 }
 
-static void add_crossings(const pir_convexes *p, const pir_convex *a, const pir_convexes *q, const pir_convex *b) {
-    pir_space *space = p->space;
-    for (uint32_t i = a->edge; i < a->edge + a->edge_count; i++)
-        for (uint32_t j = b->edge; j < b->edge + b->edge_count; j++) {
-            const pir_convex_edge *e = &p->edge[i], *g = &q->edge[j];
-            const int along = passes(space, e, g->direction);
-            // the two arcs meet in one point, not in opposite ones, when they pass opposite ways
-            if (along == 0 || passes(space, g, e->direction) != -along)
-                continue;
-            pir_space_add_plane(space, (const uint32_t[]){e->direction, g->direction}, along > 0,
-                                (const uint32_t[]){e->point, g->point});
-        }
+/* The sides of a great circle on which the normals of a piece's faces are, by face. */
+static void list_sides(pir_convexes *c, const pir_convex *convex, uint32_t direction) {
+    for (uint32_t f = 0; f < convex->face_count; f++)
+        c->side[f] = (int8_t)pir_space_dot(c->space, c->face[convex->face + f].normal, direction);
 }
 
-pir_pair_sum pir_pair_sum_make(const pir_convexes *p, uint32_t i, const pir_convexes *q, uint32_t j) {
+/* Few arcs of b pass through the great circle of an edge. They are found first, by the sides of b's faces: each face is
+ * asked once, whatever number of edges it has. */
+static void add_crossings(const pir_convexes *p, const pir_convex *a, pir_convexes *q, const pir_convex *b) {
+    pir_space *space = p->space;
+    for (uint32_t i = a->edge; i < a->edge + a->edge_count; i++) {
+        const pir_convex_edge *e = &p->edge[i];
+        list_sides(q, b, e->direction);
+        for (uint32_t j = b->edge; j < b->edge + b->edge_count; j++) {
+            const pir_convex_edge *g = &q->edge[j];
+            const int right = q->side[g->face[1]];
+            // the two arcs meet in one point, not in opposite ones, when they pass opposite ways
+            if (right == 0 || q->side[g->face[0]] != -right || passes(space, e, g->direction) != -right)
+                continue;
+            pir_space_add_plane(space, (const uint32_t[]){e->direction, g->direction}, right < 0,
+                                (const uint32_t[]){e->point, g->point});
+        }
+    }
+}
+
+pir_pair_sum pir_pair_sum_make(const pir_convexes *p, uint32_t i, pir_convexes *q, uint32_t j) {
     const pir_convex *a = &p->convex[i], *b = &q->convex[j];
     pir_pair_sum sum = {.first = p->space->plane_count, .apart = p->space->plane_count};
     add_faces(p, a, q, b);

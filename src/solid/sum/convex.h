@@ -12,6 +12,7 @@
 typedef struct pir_convex_edge {
     uint32_t point, end, direction; /* its ends; a direction along it */
     uint32_t normal[2];             /* of its faces: left × right is along `direction` */
+    uint32_t face[2];               /* those, counted from the piece's first */
 } pir_convex_edge;
 
 typedef struct pir_convex {
@@ -34,6 +35,8 @@ typedef struct pir_convexes {
     pir_convex_edge *edge;
     uint32_t *normal_of; /* per half-space: its normal's direction, or none */
     uint32_t normal_room;
+    int8_t *side; /* scratch, as long as any piece has faces */
+    uint32_t side_room;
 } pir_convexes;
 
 /* The pieces of a decomposition, whose points and planes have one number each. The status is the space's. */
@@ -49,7 +52,7 @@ typedef struct pir_pair_sum {
     pir_space_box box;
 } pir_pair_sum;
 
-/* The sum of one piece of p and one of q. */
-pir_pair_sum pir_pair_sum_make(const pir_convexes *p, uint32_t i, const pir_convexes *q, uint32_t j);
+/* The sum of one piece of p and one of q, whose scratch it uses. */
+pir_pair_sum pir_pair_sum_make(const pir_convexes *p, uint32_t i, pir_convexes *q, uint32_t j);
 
 #endif

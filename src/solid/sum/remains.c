@@ -182,7 +182,7 @@ static void take_reflex_vertices(pir_remains *c, const pir_shell_body body[2]) {
 
 /* --- all --- */
 
-static bool make_pairs(pir_remains *c, const pir_convexes convexes[2]) {
+static bool make_pairs(pir_remains *c, pir_convexes convexes[2]) {
     pir_space_begin_stage(c->space, "adding pairs of pieces", (uint64_t)convexes[0].count * convexes[1].count);
     for (uint32_t i = 0; i < convexes[0].count; i++)
         for (uint32_t j = 0; j < convexes[1].count; j++) {
@@ -245,7 +245,7 @@ static void clip_all(pir_remains *c) {
     PIR_FREE(a, work, count);
 }
 
-void pir_remains_make(pir_remains *remains, const pir_shell_body body[2], const pir_convexes convexes[2], bool open) {
+void pir_remains_make(pir_remains *remains, const pir_shell_body body[2], pir_convexes convexes[2], bool open) {
     *remains = (pir_remains){.space = body[0].space, .open = open};
     remains->touching.polygons = &remains->polygons;
     pir_polygons_init(&remains->polygons, remains->space);

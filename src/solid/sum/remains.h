@@ -39,7 +39,7 @@ typedef struct pir_remains {
 
 /* Makes the sums of all pairs of pieces, then clips every candidate by them; of open solids by the open sums first. The
  * status is the space's. */
-void pir_remains_make(pir_remains *remains, const pir_shell_body body[2], const pir_convexes convexes[2], bool open);
+void pir_remains_make(pir_remains *remains, const pir_shell_body body[2], pir_convexes convexes[2], bool open);
 void pir_remains_finish(pir_remains *remains);
 
 #endif
