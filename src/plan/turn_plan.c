@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "plan/join.h"
+#include "plan/plan_write.h"
 #include "plan/turn_bodies.h"
 
 #define PI 3.14159265358979323846
@@ -22,6 +23,7 @@ struct layers {
     const pir_turn_question *question;
     bool outer;
     uint32_t arcs;
+    pir_plan_pieces *turned; /* per arc; `body` is which piece of the robot each is of */
     pir_plan_sums *sums;
     pir_plan_tree *tree;
     uint32_t *first; /* per arc, its first cell; one more */
@@ -59,21 +61,22 @@ static pir_status add_sums(struct layers *l, uint32_t arc) {
     const pir_plan_pieces *robot = l->question->robot;
     const double *u = l->question->axis;
     const pir_plan_arc turn = {{u[0], u[1], u[2]}, angle_at(l, arc), angle_at(l, arc + 1)};
-    pir_plan_pieces turned = {.at = calloc(robot->count, sizeof(pir_polytope *))};
-    pir_status status = turned.at ? PIR_OK : PIR_ERR_MEMORY;
+    pir_plan_pieces *turned = &l->turned[arc];
+    turned->at = calloc(robot->count, sizeof *turned->at);
+    turned->body = calloc(robot->count, sizeof *turned->body);
+    pir_status status = turned->at && turned->body ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < robot->count && status == PIR_OK; i++) {
         pir_polytope *made = NULL;
         status = l->outer ? pir_plan_piece_around(robot->at[i], &turn, &made)
                           : pir_plan_piece_within(robot->at[i], &turn, &made);
-        if (made)
-            turned.at[turned.count++] = made;
+        if (made) {
+            turned->body[turned->count] = i;
+            turned->at[turned->count++] = made;
+        }
     }
     const pir_quat none = {0, 0, 0, 1};
-    if (status == PIR_OK && turned.count > 0)
-        status = pir_plan_sums_make(&l->space, &turned, l->question->obstacles, none, &l->sums[arc]);
-    for (uint32_t i = 0; i < turned.count; i++)
-        pir_polytope_release(turned.at[i]);
-    free(turned.at);
+    if (status == PIR_OK && turned->count > 0)
+        status = pir_plan_sums_make(&l->space, turned, l->question->obstacles, none, &l->sums[arc]);
     return status;
 }
 
@@ -215,11 +218,86 @@ static void finish(struct layers *l) {
     }
     pir_plan_free(&l->space, l->link, l->link_room, sizeof *l->link);
     pir_plan_free(&l->space, l->root, l->root_room, sizeof *l->root);
+    for (uint32_t a = 0; l->turned && a < l->arcs; a++) {
+        for (uint32_t i = 0; i < l->turned[a].count; i++)
+            pir_polytope_release(l->turned[a].at[i]);
+        free(l->turned[a].at);
+        free(l->turned[a].body);
+    }
+    free(l->turned);
     free(l->first);
     free(l->sums);
     free(l->tree);
     pir_plan_cutter_finish(&l->cutter);
     pir_plan_space_finish(&l->space);
+}
+
+/* --- the proof --- */
+
+/* A member: sine and cosine of half the angle, of a part of a full turn; about 1 long, which no reader relies on. */
+static void put_turn(pir_plan_writer *w, const char *name, double part) {
+    const double s = part == 1 ? 0 : sin(PI * part), c = part == 1 ? -1 : cos(PI * part);
+    const double turn[2] = {s, c};
+    fprintf(w->file, "%s", name);
+    pir_plan_put_doubles(w, turn, 2);
+}
+
+static void put_question(pir_plan_writer *w, const struct layers *l) {
+    const pir_turn_question *q = l->question;
+    const struct {
+        const char *name;
+        const double *x;
+    } member[] = {{"{\"turns\": 1,\n \"axis\": ", q->axis},
+                  {",\n \"low\": ", q->low},
+                  {",\n \"high\": ", q->high},
+                  {",\n \"from\": ", q->from},
+                  {",\n \"to\": ", q->to}};
+    for (int i = 0; i < 5; i++) {
+        fputs(member[i].name, w->file);
+        pir_plan_put_doubles(w, member[i].x, 3);
+    }
+    put_turn(w, ",\n \"from_turn\": ", q->from_turn);
+    put_turn(w, ",\n \"to_turn\": ", q->to_turn);
+    pir_plan_put_pieces(w, "robot", q->robot);
+    pir_plan_put_pieces(w, "obstacles", q->obstacles);
+}
+
+static uint32_t most_corners(const struct layers *l) {
+    const uint32_t own = pir_plan_most_corners(l->question->robot);
+    const uint32_t other = pir_plan_most_corners(l->question->obstacles);
+    uint32_t most = own > other ? own : other;
+    for (uint32_t a = 0; a < l->arcs; a++) {
+        const uint32_t turned = pir_plan_most_corners(&l->turned[a]);
+        most = turned > most ? turned : most;
+    }
+    return most;
+}
+
+/* Writes that there is no path: `start` is the root of the cells that are connected with the start. */
+static pir_status write_proof(struct layers *l, uint32_t start) {
+    for (uint32_t i = 0; i < l->first[l->arcs]; i++)
+        l->root[i] = root_of(l, i);
+    pir_plan_writer w = {.file = l->question->proof, .space = &l->space, .start = start};
+    w.corner = calloc(most_corners(l), sizeof *w.corner);
+    if (!w.corner)
+        return PIR_ERR_MEMORY;
+    mpq_init(w.x);
+    put_question(&w, l);
+    fputs(",\n \"arcs\": [", w.file);
+    for (uint32_t a = 0; a < l->arcs; a++) {
+        w.sums = &l->sums[a];
+        w.tree = &l->tree[a];
+        w.root = l->root + l->first[a];
+        put_turn(&w, a == 0 ? "\n {\"begin\": " : ",\n {\"begin\": ", a / (double)l->arcs);
+        put_turn(&w, ", \"end\": ", (a + 1) / (double)l->arcs);
+        pir_plan_put_pieces(&w, "inner", &l->turned[a]);
+        pir_plan_put_tree(&w);
+        fputs("}", w.file);
+    }
+    fputs("]}\n", w.file);
+    mpq_clear(w.x);
+    free(w.corner);
+    return ferror(l->question->proof) ? PIR_ERR_FILE : PIR_OK;
 }
 
 /* Decides by a division whose cells are joined. */
@@ -235,8 +313,10 @@ static pir_status decide(struct layers *l, pir_turn_result *ret) {
     const bool joined = root_of(l, cell[0]) == root_of(l, cell[1]);
     if (joined && l->outer)
         return make_path(l, cell, end, ret);
-    if (!joined && !l->outer)
+    if (!joined && !l->outer) {
         ret->answer = PIR_TURN_NO_PATH;
+        return q->proof ? write_proof(l, root_of(l, cell[0])) : PIR_OK;
+    }
     return PIR_OK;
 }
 
@@ -245,10 +325,11 @@ static pir_status try_layers(const pir_turn_question *question, uint32_t arcs, b
     struct layers l = {.question = question, .outer = outer, .arcs = outer ? 2 * arcs : arcs};
     pir_plan_space_init(&l.space, &allocator, question->memory);
     l.cutter.space = &l.space;
+    l.turned = calloc(l.arcs, sizeof *l.turned);
     l.sums = calloc(l.arcs, sizeof *l.sums);
     l.tree = calloc(l.arcs, sizeof *l.tree);
     l.first = calloc((size_t)l.arcs + 1, sizeof *l.first);
-    pir_status status = l.sums && l.tree && l.first ? l.space.status : PIR_ERR_MEMORY;
+    pir_status status = l.turned && l.sums && l.tree && l.first ? l.space.status : PIR_ERR_MEMORY;
     for (uint32_t a = 0; a < l.arcs && status == PIR_OK; a++)
         status = add_arc(&l, a);
     if (status == PIR_OK)

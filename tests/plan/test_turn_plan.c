@@ -58,16 +58,24 @@ static void check_path(const pir_turn_result *r, const pir_plan_pieces *robot, c
         }
 }
 
+/* The file for proofs of no path, or NULL. */
+static const char *proof;
+
 static enum pir_turn_answer ask(pir_turn_question *q, pir_polytope *bar, pir_polytope **wall, uint32_t walls) {
-    const pir_plan_pieces robot = {.at = &bar, .count = 1}, obstacles = {.at = wall, .count = walls};
+    uint32_t body[4] = {0, 0, 0, 0};
+    const pir_plan_pieces robot = {.at = &bar, .body = body, .count = 1};
+    const pir_plan_pieces obstacles = {.at = wall, .body = body, .count = walls};
     pir_turn_result r;
     const clock_t start = clock();
     q->robot = &robot;
     q->obstacles = &obstacles;
+    q->proof = proof ? fopen(proof, "w") : NULL;
     assert_int_equal(pir_plan_turn(q, &r), PIR_OK);
     printf("answer %d, %u arcs, %u parts, %u steps, %.2f s\n", (int)r.answer, r.arcs, r.parts, r.steps,
            (double)(clock() - start) / CLOCKS_PER_SEC);
     check_path(&r, &robot, &obstacles);
+    if (q->proof)
+        assert_int_equal(fclose(q->proof), 0);
     free(r.step);
     for (uint32_t i = 0; i < walls; i++)
         pir_polytope_release(wall[i]);
@@ -139,9 +147,42 @@ static void test_budget(void **state) {
     assert_int_equal(slot(.3, 1.01, 4.04, 8), PIR_TURN_UNKNOWN);
 }
 
-int main(void) {
+/* Whether a slot lets the bar through: at some angle between them it fits. */
+static bool fits(double width, double length) {
+    for (int i = 0; i <= 100000; i++) {
+        const double a = i * 1.5707963267948966e-5;
+        if (4 * sin(a) + cos(a) < width && 4 * cos(a) + sin(a) < length)
+            return true;
+    }
+    return false;
+}
+
+/* Random slots, at random angles: what is decided is right. PIR_TEST_CASES of them. */
+static void test_gates(void **state) {
+    (void)state;
+    const char *told = getenv("PIR_TEST_CASES");
+    const int cases = told ? atoi(told) : 10;
+    int count[3] = {0, 0, 0};
+    for (int i = 0; i < cases; i++) {
+        const double turn = 3 * (rand() / (double)RAND_MAX), width = .8 + 2 * (rand() / (double)RAND_MAX);
+        const double length = 3.2 + 1.5 * (rand() / (double)RAND_MAX);
+        const enum pir_turn_answer answer = slot(turn, width, length, 64);
+        count[answer]++;
+        if (answer != PIR_TURN_UNKNOWN)
+            assert_int_equal(answer == PIR_TURN_PATH, fits(width, length));
+    }
+    printf("gates: %d unknown, %d paths, %d without\n", count[0], count[1], count[2]);
+}
+
+/* With the name of a file: writes a proof for check/turns.py. */
+int main(int count, char **words) {
+    if (count == 2) {
+        proof = words[1];
+        return slot(.3, .99, 4.04, 64) != PIR_TURN_NO_PATH;
+    }
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide), cmocka_unit_test(test_tight),
-                                       cmocka_unit_test(test_corridor), cmocka_unit_test(test_budget)};
+                                       cmocka_unit_test(test_corridor), cmocka_unit_test(test_budget),
+                                       cmocka_unit_test(test_gates)};
     srand(1);
     printf("seed 1\n");
     return cmocka_run_group_tests(tests, NULL, NULL);
