@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Sums between the events of a turn. A sum that is tracked from interval to interval, at short numbers κ between
- * events, has the pairing of one made there anew, and the true facets that the events count. At hard axes, rotations
- * and places, and where memory runs out at every n-th request, events are those of the plain run.
+ * events, has the pairing of one made there anew, the bits of its mesh, and the true facets that the events count. So
+ * it is at the doubles next to an event, and at an event that is a double, where the count is not told. At hard axes,
+ * rotations and places, and where memory runs out at every n-th request, events are those of the plain run.
  */
 #include "support/test.h"
 
@@ -25,10 +26,12 @@ static bool is_short(double kappa) {
            (fabs(kappa) < 0x1p+30 && fabs(kappa) > 0x1p-12 && ldexp(kappa, 34) == nearbyint(ldexp(kappa, 34)));
 }
 
-/* The sum at κ, tracked and new, against the count of facets. */
+#define UNTOLD UINT32_MAX
+
+/* The sum at κ, tracked and new, against the count of facets, unless that is UNTOLD. */
 static void check_sum(pir_sum *tracked, pir_quat rotation, bool difference, uint32_t facets) {
     pir_sum *fresh = NULL;
-    pir_mesh *mesh = NULL;
+    pir_mesh *mesh = NULL, *tracked_mesh = NULL;
     pir_sum_options options = pir_sum_options_default();
     options.difference = difference;
     assert_int_equal(pir_sum_rotate(tracked, rotation, PIR_METHOD_UPDATE), PIR_OK);
@@ -39,14 +42,38 @@ static void check_sum(pir_sum *tracked, pir_quat rotation, bool difference, uint
                      PIR_OK);
     assert_true(pir_sum_same_pairing(tracked, fresh));
     assert_int_equal(pir_sum_mesh(fresh, PIR_DOUBLE, &mesh), PIR_OK);
-    expect(pir_mesh_facet_count(mesh) == facets, "at %g, %g, %g, %g: %u facets, not %u", rotation.x, rotation.y,
-           rotation.z, rotation.w, (unsigned)pir_mesh_facet_count(mesh), (unsigned)facets);
+    expect(facets == UNTOLD || pir_mesh_facet_count(mesh) == facets, "at %g, %g, %g, %g: %u facets, not %u", rotation.x,
+           rotation.y, rotation.z, rotation.w, (unsigned)pir_mesh_facet_count(mesh), (unsigned)facets);
+    assert_int_equal(pir_sum_mesh(tracked, PIR_DOUBLE, &tracked_mesh), PIR_OK);
+    assert_true(pir_mesh_equal(tracked_mesh, mesh));
+    pir_mesh_destroy(tracked_mesh);
     pir_mesh_destroy(mesh);
     pir_sum_destroy(fresh);
 }
 
-/* All intervals of a turn; returns how many were looked at, at most `most`. */
-static uint32_t run_turn(uint64_t number, uint32_t most) {
+/*
+ * The sum beside an event or at it, for the start (0, 0, 0, 1), where quaternions are exact for every double. The
+ * count `before` is that of the interval before, UNTOLD where no double lies in it. Where one does, the doubles around
+ * the ends are in the interval as well. Returns how many angles were looked at.
+ */
+static uint32_t check_beside(pir_sum *tracked, pir_events *events, pir_vec3 axis, bool difference, uint32_t before) {
+    const pir_quat start = {0, 0, 0, 1};
+    double kappa[2], between;
+    pir_events_kappa(events, kappa);
+    if (!isfinite(kappa[0]) || !isfinite(kappa[1]))
+        return 0;
+    const bool at_event = kappa[0] == kappa[1];
+    const bool has_after = pir_events_between(events, &between) == PIR_OK;
+    const uint32_t after = has_after ? pir_events_facet_count(events) : UNTOLD;
+    check_sum(tracked, at_kappa(axis, kappa[1], start), difference, at_event ? UNTOLD : before);
+    if (at_event)
+        return 1;
+    check_sum(tracked, at_kappa(axis, kappa[0], start), difference, after);
+    return 2;
+}
+
+/* All intervals of a turn; returns how many were looked at, at most `most`; adds to `beside` those at events. */
+static uint32_t run_turn(uint64_t number, uint32_t most, uint32_t *beside) {
     static const char *const shapes[] = {"cube",         "octahedron", "icosahedron", "geodesic?level=2",
                                          "dodecahedron", "tetrahedron"};
     test_random random = test_random_case("turn sums", number);
@@ -78,7 +105,10 @@ static uint32_t run_turn(uint64_t number, uint32_t most) {
             check_sum(sum, at_kappa(axis, kappa, start), options.difference, pir_events_facet_count(events));
             looked++;
         }
+        const uint32_t before = status == PIR_OK ? pir_events_facet_count(events) : UNTOLD;
         assert_int_equal(pir_events_next(events, &event, &found), PIR_OK);
+        if (found && number % 2 == 0)
+            *beside += check_beside(sum, events, axis, options.difference, before);
     }
     pir_events_destroy(events);
     pir_sum_destroy(sum);
@@ -91,10 +121,11 @@ static void sums_between_events_have_the_facets_counted(void **state) {
     (void)state;
     const char *told = getenv("PIR_TEST_ANGLES");
     const uint32_t angles = told ? (uint32_t)strtoul(told, NULL, 10) : 800;
-    uint32_t looked = 0;
+    uint32_t looked = 0, beside = 0;
     for (uint64_t i = 0; looked < angles; i++)
-        looked += run_turn(i, angles - looked);
-    printf("# %u angles\n", (unsigned)looked);
+        looked += run_turn(i, angles - looked, &beside);
+    printf("# %u angles between events, %u beside or at them\n", (unsigned)looked, (unsigned)beside);
+    assert_true(beside > angles / 4);
 }
 
 /* How many events there are, and the sum of what they change. */
