@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* pirouette plan: whether a body can be moved from one place to another between obstacles, with the proof. */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,8 @@ struct plan_run {
     size_t count, room, of_robot;
     pir_path_plan_input input;
     pir_path_plan_options options;
+    pir_turn_plan_input turns; /* with --axis: what of the question is its own */
+    uint32_t arcs;             /* at most; 0 for the default */
     pir_report report;
     double seconds;
 };
@@ -61,13 +64,59 @@ static bool is_same_turn(pir_quat a, pir_quat b) {
            (a.x == -b.x && a.y == -b.y && a.z == -b.z && a.w == -b.w);
 }
 
+/* A pose with --axis: x,y,z and degrees, which may be missing. */
+static bool read_turned_place(const struct args *args, const char *name, pir_vec3 *place, double *turn) {
+    double n[4] = {0, 0, 0, 0};
+    if (!args_has(args, name)) {
+        complain("plan: %s x,y,z,DEGREES is missing: where the robot is to be", name);
+        return false;
+    }
+    if (!args_numbers(args, name, count_numbers(args_value(args, name)) == 3 ? 3 : 4, n))
+        return false;
+    *place = (pir_vec3){n[0], n[1], n[2]};
+    *turn = n[3] / 360 - floor(n[3] / 360);
+    *turn = *turn < 1 ? *turn : 0; // a tiny angle below 0
+    return true;
+}
+
+/* What is asked with --axis. */
+static bool read_turns(struct plan_run *run, const double bounds[6]) {
+    const struct args *args = run->args;
+    pir_turn_plan_input *in = &run->turns;
+    double axis[3];
+    uint64_t arcs = 0;
+    if (args_has(args, "--translate-only") || args_has(args, "--open")) {
+        complain("plan: --axis goes with neither --translate-only nor --open");
+        return false;
+    }
+    if (!args_has(args, "--bounds")) {
+        complain("plan: --bounds is missing, which --axis needs");
+        return false;
+    }
+    if (!args_numbers(args, "--axis", 3, axis) || !args_count(args, "--arcs", 8, 65536, &arcs) ||
+        !read_turned_place(args, "--from", &in->from, &in->from_turn) ||
+        !read_turned_place(args, "--to", &in->to, &in->to_turn))
+        return false;
+    in->axis = (pir_vec3){axis[0], axis[1], axis[2]};
+    in->low = (pir_vec3){bounds[0], bounds[1], bounds[2]};
+    in->high = (pir_vec3){bounds[3], bounds[4], bounds[5]};
+    run->arcs = (uint32_t)arcs;
+    return target_check(args, "-o", NULL);
+}
+
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
     pir_quat end;
     double bounds[6] = {0};
     uint64_t parts = 0;
-    if (!args_has(args, "--translate-only")) {
-        complain("plan: only translations are planned yet: say --translate-only");
+    if (!args_numbers(args, "--bounds", 6, bounds) || !args_count(args, "--budget", 1, UINT32_MAX, &parts))
+        return false;
+    run->options = pir_path_plan_options_default();
+    run->options.parts = (uint32_t)parts;
+    if (args_has(args, "--axis"))
+        return read_turns(run, bounds);
+    if (!args_has(args, "--translate-only") || args_has(args, "--arcs")) {
+        complain("plan: say --translate-only, or --axis for turns about one, with --arcs if at all");
         return false;
     }
     if (!read_place(args, "--from", &run->input.rotation, &run->input.from) ||
@@ -77,15 +126,11 @@ static bool read_options(struct plan_run *run) {
         complain("plan: --from and --to turn the robot otherwise, which translations cannot");
         return false;
     }
-    if (!args_numbers(args, "--bounds", 6, bounds) || !args_count(args, "--budget", 1, UINT32_MAX, &parts))
-        return false;
-    run->options = pir_path_plan_options_default();
     run->options.report = &run->report;
     run->options.open = args_has(args, "--open");
     run->options.bounded = args_has(args, "--bounds");
     run->options.low = (pir_vec3){bounds[0], bounds[1], bounds[2]};
     run->options.high = (pir_vec3){bounds[3], bounds[4], bounds[5]};
-    run->options.parts = (uint32_t)parts;
     return target_check(args, "-o", NULL);
 }
 
@@ -218,6 +263,82 @@ static int tell(struct plan_run *run, const pir_path_plan *plan) {
     return EXIT_DONE;
 }
 
+/* --- turns --- */
+
+static const char *turn_answer_name(pir_turn_plan_answer answer) {
+    return answer == PIR_TURN_PLAN_PATH ? "path" : answer == PIR_TURN_PLAN_NO_PATH ? "no path" : "unknown";
+}
+
+static bool print_turns_json(FILE *file, const struct plan_run *run, const pir_turn_plan *plan,
+                             const pir_turn_plan_info *info) {
+    struct json json = json_new();
+    json_add_text(&json, json.root, "answer", turn_answer_name(info->answer));
+    cJSON *path = info->answer == PIR_TURN_PLAN_PATH ? json_add_array(&json, json.root, "path") : NULL;
+    for (uint32_t i = 0; i < info->steps; i++) {
+        pir_turn_plan_step step;
+        pir_turn_plan_get_step(plan, i, &step);
+        cJSON *one = json_add_object(&json, path, NULL);
+        json_add_numbers(&json, one, "at", (const double[]){step.at.x, step.at.y, step.at.z}, 3);
+        json_add_numbers(&json, one, "radians", (const double[]){step.low, step.high}, 2);
+    }
+    json_add_count(&json, json.root, "robot_pieces", info->robot_pieces);
+    json_add_count(&json, json.root, "obstacle_pieces", info->obstacle_pieces);
+    json_add_count(&json, json.root, "arcs", info->arcs);
+    json_add_count(&json, json.root, "parts", info->parts);
+    json_add_number(&json, json.root, "seconds", run->seconds);
+    return json_print(&json, file);
+}
+
+static void print_turns_text(const struct plan_run *run, const pir_turn_plan_info *info) {
+    char time[TEXT_NUMBER];
+    text_time(run->seconds * 1e9, time);
+    say("%s, by translations and turns about the axis, for closed bodies\n", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_PATH)
+        say("  %-10s %" PRIu32 ", each a motion and a turn; -o or --json tells them\n", "steps", info->steps);
+    say("  %-10s %" PRIu32 ", in %" PRIu32 " parts of boxes\n", "arcs", info->arcs, info->parts);
+    say("  %-10s %s\n", "time", time);
+}
+
+/* Writes and tells what was decided; the proof, where there is one, stands in the file already. */
+static int tell_turns(struct plan_run *run, const pir_turn_plan *plan, struct output_file *file) {
+    pir_turn_plan_info info;
+    pir_turn_plan_describe(plan, &info);
+    const bool is_kept = args_has(run->args, "-o");
+    if (is_kept && info.answer != PIR_TURN_PLAN_NO_PATH && !print_turns_json(file->stream, run, plan, &info))
+        return EXIT_BAD_INPUT;
+    if (is_kept && !output_commit(file))
+        return EXIT_BAD_INPUT;
+    if (args_has(run->args, "--json"))
+        return print_turns_json(stdout, run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (!target_is_stdout(run->args, "-o"))
+        print_turns_text(run, &info);
+    return EXIT_DONE;
+}
+
+/* Plans with --axis. */
+static int plan_turns(struct plan_run *run, struct output_file *file) {
+    pir_turn_plan_options options = pir_turn_plan_options_default();
+    pir_turn_plan *plan = NULL;
+    options.report = &run->report;
+    options.proof = args_has(run->args, "-o") ? file->stream : NULL;
+    options.arcs = run->arcs > 0 ? run->arcs : options.arcs;
+    options.parts = run->options.parts > 0 ? run->options.parts : options.parts;
+    run->turns.robot = run->input.robot;
+    run->turns.robot_count = run->input.robot_count;
+    run->turns.obstacles = run->input.obstacles;
+    run->turns.obstacle_count = run->input.obstacle_count;
+    const int64_t start = clock_now();
+    const pir_status status = pir_turn_plan_create(&run->turns, &options, &plan);
+    run->seconds = (double)(clock_now() - start) / 1e9;
+    if (status != PIR_OK) {
+        complain_status("plan", status, &run->report);
+        return EXIT_BAD_INPUT;
+    }
+    const int result = tell_turns(run, plan, file);
+    pir_turn_plan_destroy(plan);
+    return result;
+}
+
 SUBCOMMAND(plan) {
     struct plan_run run = {.args = args};
     struct output_file file = {0};
@@ -225,7 +346,9 @@ SUBCOMMAND(plan) {
     pir_path_plan *plan = NULL;
     int result = EXIT_BAD_INPUT;
     bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path));
-    if (good) {
+    if (good && args_has(args, "--axis")) {
+        result = plan_turns(&run, &file);
+    } else if (good) {
         const int64_t start = clock_now();
         const pir_status status = pir_path_plan_translate(&run.input, &run.options, &plan);
         run.seconds = (double)(clock_now() - start) / 1e9;

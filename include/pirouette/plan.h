@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /**
  * Plans: whether a body can be moved from one place to another between obstacles by translations alone, decided
- * always and exactly, with the path, or with what proves that there is none.
+ * always and exactly, with the path, or with what proves that there is none; and by translations with turns about one
+ * axis, decided where the budget lasts (pir_turn_plan, at the end).
  *
  * The robot P, at one rotation R, is at a translation t where the obstacles Q are met if t lies in one of the sums
  * Q_l ⊕ (−R·P_k) of convex pieces. Free are the translations within the bounds that lie in no sum: bodies may not
@@ -134,6 +135,99 @@ PIR_API pir_status pir_path_plan_waypoint(const pir_path_plan *plan, uint32_t in
  * Errors: PIR_ERR_ARGUMENT, PIR_ERR_FILE, PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_path_plan_write(const pir_path_plan *plan, FILE *file);
+
+typedef struct pir_turn_plan pir_turn_plan;
+
+/** How a plan with turns is made. Its memory is from malloc. */
+typedef struct pir_turn_plan_options {
+    size_t size;        /**< of this struct, which pir_turn_plan_options_default sets (base.h) */
+    size_t memory;      /**< the most bytes that a division may hold, numbers included */
+    pir_report *report; /**< NULL, or filled when the call fails: it names what is wrong, and where */
+    FILE *proof;        /**< NULL, or where the proof goes that there is no path, JSON; it is not closed */
+    uint32_t arcs;      /**< the most arcs of the full turn: a power of two, from 8 to 65536 */
+    uint32_t parts;     /**< the most parts that the boxes of all arcs may be divided into */
+} pir_turn_plan_options;
+
+/** As pir_solid_options_default has it, no proof, 1024 arcs, 2^22 parts. O(1). */
+static inline pir_turn_plan_options pir_turn_plan_options_default(void) {
+    const pir_turn_plan_options options = {
+        sizeof(pir_turn_plan_options), pir_solid_options_default().memory, NULL, NULL, 1024, 1u << 22};
+    return options;
+}
+
+/** The outcome of a plan with turns. */
+typedef enum pir_turn_plan_answer {
+    PIR_TURN_PLAN_UNKNOWN = 0, /**< arcs, parts or memory ended first */
+    PIR_TURN_PLAN_PATH,
+    PIR_TURN_PLAN_NO_PATH
+} pir_turn_plan_answer;
+
+/** The question of a plan with turns. Arrays and solids are borrowed for the call. Bodies are closed. */
+typedef struct pir_turn_plan_input {
+    const pir_solid *const *robot; /**< P: solids that move together, in one frame; they may overlap */
+    size_t robot_count;
+    const pir_solid *const *obstacles; /**< Q, likewise */
+    size_t obstacle_count;
+    pir_vec3 axis;             /**< through P's origin, of any length but 0 */
+    pir_vec3 low, high;        /**< the bounds of the translation t; each low below its high */
+    pir_vec3 from, to;         /**< t at the begin and at the end */
+    double from_turn, to_turn; /**< the turn there, as a part of a full turn: from 0 to below 1 */
+} pir_turn_plan_input;
+
+/** The description of a plan with turns. */
+typedef struct pir_turn_plan_info {
+    pir_turn_plan_answer answer;
+    uint32_t steps; /**< of the path; 0 where there is none */
+    uint32_t arcs;  /**< that the full turn was divided into in the end */
+    uint32_t parts; /**< of the boxes of all of these */
+    uint32_t robot_pieces, obstacle_pieces;
+} pir_turn_plan_info;
+
+/** A step of a path: a straight motion to `at` at any angle of an interval, then a turn there to the next interval. */
+typedef struct pir_turn_plan_step {
+    pir_vec3 at;
+    double low, high; /**< radians: the motion to here is free at each of these angles, and so is staying */
+} pir_turn_plan_step;
+
+/**
+ * Decides whether P can be moved from one translation and turn about an axis to another.
+ *
+ * input     the question.
+ * options   NULL for the defaults.
+ * ret_plan  to be freed with pir_turn_plan_destroy; also where the answer is unknown.
+ *
+ * The full turn is divided into arcs, 8, then twice as many. What pieces within P at every angle of an arc block is
+ * blocked, and what pieces around P leave is free: an answer other than unknown is proven, and of two questions that
+ * only differ in their budgets no two are answered otherwise.
+ *
+ * Cost: for each number n of arcs n times that of pir_path_plan_translate; n grows as the inverse of the gap.
+ *
+ * Errors: PIR_ERR_ARGUMENT (no solid, no axis, bounds that hold nothing, a place out of bounds or blocked, a turn not
+ * from 0 to below 1, arcs that are no such number), PIR_ERR_NOT_FINITE, PIR_ERR_EMPTY without a
+ * robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid), PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
+ *
+ * Source: cells of translations over intervals of the angle, after Lozano-Pérez 1983 and Brooks and Lozano-Pérez 1985.
+ */
+PIR_API pir_status pir_turn_plan_create(const pir_turn_plan_input *input, const pir_turn_plan_options *options,
+                                        pir_turn_plan **ret_plan);
+
+/** Frees; NULL is accepted. Cost: the time to free it. */
+PIR_API void pir_turn_plan_destroy(pir_turn_plan *plan);
+
+/** The description of a plan with turns. O(1). */
+PIR_API void pir_turn_plan_describe(const pir_turn_plan *plan, pir_turn_plan_info *ret_info);
+
+/**
+ * A step of the path. The first is where it begins, the last where it ends.
+ *
+ * index     below the count of steps.
+ * ret_step  the step.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_turn_plan_get_step(const pir_turn_plan *plan, uint32_t index, pir_turn_plan_step *ret_step);
 
 #ifdef __cplusplus
 }

@@ -189,17 +189,28 @@ static bool add_step(struct layers *l, uint32_t point, uint32_t arc, pir_turn_re
            pir_plan_sums_along(&l->space, &l->sums[arc], before, here, false) == PIR_PLAN_NONE;
 }
 
+/* A motion within a cell: through its middle where the straight one runs along what blocks. */
+static bool add_motion(struct layers *l, uint32_t cell, uint32_t point, pir_turn_result *path) {
+    const uint32_t arc = arc_of(l, cell);
+    if (add_step(l, point, arc, path))
+        return true;
+    path->steps--;
+    const pir_plan_cell *own = &l->tree[arc].cell[cell - l->first[arc]];
+    const uint32_t middle = pir_plan_point_mean(&l->space, own->point, own->points);
+    return l->space.status == PIR_OK && add_step(l, middle, arc, path) && add_step(l, point, arc, path);
+}
+
 static pir_status make_path(struct layers *l, const uint32_t cell[2], const uint32_t end[2], pir_turn_result *ret) {
     pir_turn_result path = {.answer = PIR_TURN_PATH, .arcs = l->arcs / 2, .parts = l->parts};
     uint32_t *by = reach(l, cell[1], cell[0]), at = cell[0];
-    path.step = malloc(((size_t)l->links + 2) * sizeof *path.step);
+    path.step = malloc((2 * (size_t)l->links + 4) * sizeof *path.step);
     bool good = by && path.step && add_step(l, end[0], arc_of(l, at), &path);
     while (good && at != cell[1]) {
         const struct link *link = &l->link[by[at]];
-        good = add_step(l, link->door, arc_of(l, at), &path);
+        good = add_motion(l, at, link->door, &path);
         at = link->cell[link->cell[0] == at];
     }
-    good = good && add_step(l, end[1], arc_of(l, at), &path);
+    good = good && add_motion(l, at, end[1], &path);
     const bool has_room = by && path.step;
     free(by);
     if (good)

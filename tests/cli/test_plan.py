@@ -95,6 +95,36 @@ class Plan(PlanTest):
         self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
 
 
+    def test_turns(self):
+        """A bar and a plate with a slot: through, not, and files that say so."""
+        bar = self.file("bar.obj", boxes(((-0.5, -2, -0.5), (0.5, 2, 0.5))))
+        for width, answer in ((1.5, "path"), (0.9, "no path")):
+            x = width / 2
+            walls = ((-9, -9, -1), (-x, 9, 1)), ((x, -9, -1), (9, 9, 1)), ((-x, -9, -1), (x, -2.2, 1)), \
+                    ((-x, 2.2, -1), (x, 9, 1))
+            plate, proof = self.file("plate.obj", boxes(*walls)), self.path / "turns.json"
+            told = self.data("plan", bar, plate, "--axis=0,0,2", "--bounds=-4,-4,-4,4,4,4", "--from=0,0,-3,-90",
+                             "--to=0,0,3,30", "-o", proof)
+            self.assertEqual((told["answer"], told["obstacle_pieces"]), (answer, 4))
+            run = subprocess.run([sys.executable, "-B", ROOT / "check" / "turns.py", proof], capture_output=True,
+                                 text=True, check=False)
+            if answer == "path":
+                self.assertEqual(json.loads(proof.read_text())["path"], told["path"])
+                self.assertEqual((told["path"][0]["at"], told["path"][-1]["at"]), ([0, 0, -3], [0, 0, 3]))
+            else:
+                self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
+        good = ["plan", bar, plate, "--axis=0,0,1", "--from=0,0,-3", "--to=0,0,3,30"]
+        self.assertEqual(self.data(*good, "--bounds=-4,-4,-4,4,4,4", "--budget=9")["answer"], "unknown")
+        self.bad(*good, says=("--bounds",))
+        good.append("--bounds=-4,-4,-4,4,4,4")
+        self.bad(*good, "--translate-only", says=("--translate-only",))
+        self.bad(*good, "--open", says=("--open",))
+        self.bad(*good, "--arcs=9", says=("arcs",))
+        self.bad("plan", bar, plate, "--axis=0,0,0", *good[4:], says=("axis",))
+        self.bad("plan", bar, plate, "--axis=0,0,1", "--from=0,0,0", *good[5:], says=("meets an obstacle",))
+        self.bad("plan", bar, plate, "--translate-only", "--arcs=8", "--from=0,0,-3", "--to=0,0,3", says=("--arcs",))
+
+
 class Proofs(PlanTest):
     def test_peg(self):
         bounds = "--bounds=0,0,-9,4,4,9"

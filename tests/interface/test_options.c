@@ -350,6 +350,21 @@ static pir_status ask_path_plan(struct world *w, const void *options, pir_report
     return status;
 }
 
+static pir_status ask_turn_plan(struct world *w, const void *options, pir_report *report, double *told) {
+    const pir_solid *const some[] = {w->solid};
+    const pir_turn_plan_input input = {some,      1,          some,      1, {0, 0, 1}, {-9, -9, -9},
+                                       {9, 9, 9}, {-8, 0, 0}, {8, 0, 0}, 0, .25};
+    pir_turn_plan *plan = NULL;
+    pir_turn_plan_info info = {0};
+    (void)report;
+    const pir_status status = pir_turn_plan_create(&input, options, &plan);
+    if (status == PIR_OK)
+        pir_turn_plan_describe(plan, &info);
+    pir_turn_plan_destroy(plan);
+    *told = info.parts;
+    return status;
+}
+
 static pir_status ask_solid_certify_exact(struct world *w, const void *options, pir_report *report, double *told) {
     mpq_t added, lost;
     (void)report;
@@ -488,6 +503,7 @@ KIND(solid, LACKS(solid, memory), LACKS(solid, report), o->report = w->report, o
 KIND(decompose, LACKS(decompose, method), LACKS(decompose, report), o->report = w->report, o->tolerance = NAN)
 KIND(solid_sum, LACKS(solid_sum, difference), LACKS(solid_sum, report), o->report = w->report, o->difference = true)
 KIND(path_plan, LACKS(path_plan, low), LACKS(path_plan, report), o->report = w->report, o->open = true)
+KIND(turn_plan, LACKS(turn_plan, arcs), LACKS(turn_plan, report), o->report = w->report, o->arcs = 9)
 KIND(trimesh, LACKS(trimesh, two_sided), 0, , o->two_sided = true)
 KIND(height, LACKS(height, two_sided), 0, , o->two_sided = true)
 KIND(trimesh_pair, 0, 0, , )
@@ -531,6 +547,7 @@ static const struct call {
     {"pir_solid_sum_create", ask_solid_sum, &solid_sum_kind, false},
     {"pir_clash_body_create", ask_clash_body_create, &solid_kind, false},
     {"pir_path_plan_translate", ask_path_plan, &path_plan_kind, false},
+    {"pir_turn_plan_create", ask_turn_plan, &turn_plan_kind, false},
     {"pir_solid_certify_exact", ask_solid_certify_exact, &solid_kind, false},
     {"pir_trimesh_create", ask_trimesh_create, &trimesh_kind, true},
     {"pir_trimesh_read", ask_trimesh_read, &trimesh_kind, true},
