@@ -13,6 +13,7 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "support/memory.h"
 
 enum { MOTIONS = 10, SAMPLES = 40 };
 
@@ -183,10 +184,52 @@ static void wrong_motions_are_refused(void **state) {
     pir_solid_release(cube);
 }
 
+/* Two bars of several cells meet side on side: many pairs of pieces have their first contact at one κ. */
+static void ties_that_run_out_of_memory_are_told(void **state) {
+    (void)state;
+    cells bar = {0};
+    for (int k = 0; k < 3; k++)
+        bar.full[0][0][k] = bar.full[1][0][k] = bar.full[0][k][0] = bar.full[1][k][0] = true;
+    pir_solid *solid = solid_of_cells(&bar);
+    pir_pieces *pieces = NULL;
+    assert_int_equal(pir_solid_decompose(solid, NULL, NULL, &pieces), PIR_OK);
+    const pir_exact_motion motions[] = {{.axis = {1, 0, 0}, .degrees = 360}, {.way = {0, 8, 0}}};
+    unsigned failed = 0;
+    for (int m = 0; m < 2; m++) {
+        pir_pair_input input = pir_pair_input_default();
+        input.pose_q.translation = (pir_vec3){0, 6, 0};
+        if (m == 0)
+            input.pose_q.translation = (pir_vec3){0, -3.5, 0.5};
+        pir_status status = PIR_ERR_MEMORY;
+        for (uint64_t n = 1; status == PIR_ERR_MEMORY; n++) {
+            test_memory memory = {0};
+            const pir_allocator allocator = test_allocator(&memory);
+            pir_solid_query *query = NULL;
+            pir_workspace *workspace = NULL;
+            assert_int_equal(pir_workspace_create(&allocator, &workspace), PIR_OK);
+            assert_int_equal(pir_solid_query_create(pieces, pieces, &allocator, &query), PIR_OK);
+            memory.fail_at = memory.requests + n;
+            pir_exact_impact hit = {.degrees = 7};
+            status = pir_solid_query_impact(query, workspace, &input, &motions[m], &hit);
+            assert_true(status == PIR_OK || (status == PIR_ERR_MEMORY && hit.degrees == 7));
+            assert_true(status != PIR_OK || hit.impact.outcome == PIR_CAST_HIT);
+            failed += status == PIR_ERR_MEMORY;
+            pir_solid_query_destroy(query);
+            pir_workspace_destroy(workspace);
+            assert_true(memory.blocks == 0 && !memory.wrong_size && !memory.overrun);
+        }
+    }
+    printf("%u requests failed\n", failed);
+    assert_true(failed > 0);
+    pir_pieces_destroy(pieces);
+    pir_solid_release(solid);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(first_contacts_are_bracketed_by_states),
+        cmocka_unit_test(ties_that_run_out_of_memory_are_told),
         cmocka_unit_test(wrong_motions_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
