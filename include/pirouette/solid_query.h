@@ -23,6 +23,7 @@
 
 #include <pirouette/base.h>
 #include <pirouette/gradient.h>
+#include <pirouette/impact.h>
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/solid.h>
@@ -118,6 +119,27 @@ PIR_API pir_status pir_solid_query_gradient(pir_solid_query *query, pir_workspac
  */
 PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                                         const pir_motion *motion, double tolerance, pir_impact *ret_impact);
+
+/**
+ * When P first touches Q in a turn about an axis, or on a way, exactly: the first contact of all pairs of pieces, as
+ * pir_pair_impact tells it. Contacts of two pairs are compared as algebraic numbers; of equal ones that of the lowest
+ * piece of P, then of Q, is told, with its pieces, and with its planes as `steps`.
+ *
+ * PIR_CAST_START_INSIDE is told without a witness, pieces, point and normal, for overlaps are not those of two pieces.
+ * Bodies that touch at the start are told by a pair that overlaps just after it, PIR_CAST_HIT at time 0, or, where
+ * there is none, by one that touches, PIR_CAST_RECEDING.
+ *
+ * workspace, input  scratch, and the poses at the start; radii, cutoff and margin do not count.
+ * motion            P's; Q rests.
+ * ret_impact        features are those of the pieces.
+ *
+ * Cost: that of pir_solid_query_overlap, and of pir_pair_impact for each pair of pieces that is no farther apart at the
+ * start than a point of P goes until the contact; for each tie of two pairs O(1) of these again, in exact arithmetic.
+ *
+ * Errors: those of a query and of pir_pair_impact.
+ */
+PIR_API pir_status pir_solid_query_impact(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
+                                          const pir_exact_motion *motion, pir_exact_impact *ret_impact);
 
 /** A facet of the sum of two pieces, which P may not move into: a facet of one and a vertex of the other, or an edge
  * of each. */

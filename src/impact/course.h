@@ -112,7 +112,7 @@ pir_status pir_course_integers_make(pir_course *course);
 void pir_course_exact(pir_course *course, const pir_condition *condition, mpz_t dst[3]);
 pir_quadratic pir_course_view(mpz_t c[3]);
 
-/* The quadratic in κ, linear of a way, without a common divisor, the first coefficient that is not 0 positive. */
+/* The quadratic in κ, linear of a way, without a common divisor; its exit root is that of the condition. */
 pir_status pir_course_polynomial(pir_course *course, const pir_condition *condition, mpz_t *dst);
 
 #endif

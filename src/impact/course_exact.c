@@ -423,8 +423,6 @@ pir_status pir_course_polynomial(pir_course *course, const pir_condition *condit
     mpz_init(common);
     for (int k = 0; k < 3; k++)
         mpz_gcd(common, common, dst[k]);
-    if (mpz_sgn(dst[mpz_sgn(dst[0]) != 0 ? 0 : 1]) < 0)
-        mpz_neg(common, common);
     for (int k = 0; k < 3; k++)
         mpz_divexact(dst[k], dst[k], common);
     mpz_clear(common);
@@ -436,5 +434,9 @@ pir_status pir_pair_impact_exact(pir_pair *pair, pir_workspace *workspace, const
                                  mpz_t *ret_coefficients) {
     if (ret_coefficients == NULL)
         return PIR_ERR_ARGUMENT;
-    return pir_pair_impact_run(pair, workspace, input, motion, ret_impact, ret_coefficients);
+    const pir_status status = pir_pair_impact_run(pair, workspace, input, motion, ret_impact, ret_coefficients);
+    if (status == PIR_OK && mpz_sgn(ret_coefficients[mpz_sgn(ret_coefficients[0]) != 0 ? 0 : 1]) < 0)
+        for (int k = 0; k < 3; k++)
+            mpz_neg(ret_coefficients[k], ret_coefficients[k]);
+    return status;
 }

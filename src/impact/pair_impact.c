@@ -207,14 +207,13 @@ static pir_status run(impact_job *job, pir_exact_impact *impact) {
 
 /* --- the calls --- */
 
-static pir_status check(const pir_pair *pair, const pir_exact_motion *motion) {
+pir_status pir_exact_motion_check(const pir_exact_motion *motion) {
     if (!pir_vec_is_finite(motion->pivot) || !pir_vec_is_finite(motion->axis) || !pir_vec_is_finite(motion->way) ||
         !isfinite(motion->degrees))
         return PIR_ERR_NOT_FINITE;
-    const int p = pair->p->dimension, q = pair->q->dimension;
     const bool turns = motion->degrees != 0, goes = pir_vec_size(motion->way) > 0;
     const double most = fmax(fmax(fabs(motion->axis.x), fabs(motion->axis.y)), fabs(motion->axis.z));
-    if (p < 2 || q < 2 || p + q < 5 || fabs(motion->degrees) > 360 || (turns && (goes || most == 0)))
+    if (fabs(motion->degrees) > 360 || (turns && (goes || most == 0)))
         return PIR_ERR_ARGUMENT;
     return turns && !(most >= 0x1p-400 && most <= 0x1p400) ? PIR_ERR_LIMIT : PIR_OK;
 }
@@ -238,9 +237,12 @@ pir_status pir_pair_impact_run(pir_pair *pair, pir_workspace *workspace, const p
                                const pir_exact_motion *motion, pir_exact_impact *ret_impact, mpz_t *ret_coefficients) {
     if (pair == NULL || workspace == NULL || input == NULL || motion == NULL || ret_impact == NULL)
         return PIR_ERR_ARGUMENT;
-    pir_status status = check(pair, motion);
+    pir_status status = pir_exact_motion_check(motion);
     if (status != PIR_OK)
         return status;
+    const int p = pair->p->dimension, q = pair->q->dimension;
+    if (p < 2 || q < 2 || p + q < 5)
+        return PIR_ERR_ARGUMENT;
     impact_job job = {.pair = pair, .workspace = workspace, .motion = motion, .input = *input};
     pir_course *course = &job.search.course;
     course->allocator = &pair->allocator;

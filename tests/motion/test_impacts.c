@@ -273,7 +273,7 @@ static void expect_apart_before(const hinge *h, double least, double end, uint64
     qsort(all.at, all.count, sizeof *all.at, by_size);
     double before = 0;
     for (size_t i = 0; i <= all.count; i++) {
-        const double theta = i < all.count ? all.at[i] : end;
+        const double theta = i < all.count ? fmin(all.at[i], end) : end; // nothing after the end is asked
         const double kappa = kappa_of(h, 0.5 * (before + theta));
         if (theta - before > 1e-13 && kappa > least) {
             seen.roots++;
