@@ -79,7 +79,7 @@ static bool read_turned_place(const struct args *args, const char *name, pir_vec
     return true;
 }
 
-/* What is asked with --axis. */
+/* The question with --axis. */
 static bool read_turns(struct plan_run *run, const double bounds[6]) {
     const struct args *args = run->args;
     pir_turn_plan_input *in = &run->turns;

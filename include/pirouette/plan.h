@@ -203,8 +203,8 @@ typedef struct pir_turn_plan_step {
  * Cost: for each number n of arcs n times that of pir_path_plan_translate; n grows as the inverse of the gap.
  *
  * Errors: PIR_ERR_ARGUMENT (no solid, no axis, bounds that hold nothing, a place out of bounds or blocked, a turn not
- * from 0 to below 1, arcs that are no such number), PIR_ERR_NOT_FINITE, PIR_ERR_EMPTY without a
- * robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid), PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
+ * from 0 to below 1, arcs that are no such number), PIR_ERR_NOT_FINITE, PIR_ERR_EMPTY without a robot or obstacles,
+ * PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid), PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
  *
  * Source: cells of translations over intervals of the angle, after Lozano-Pérez 1983 and Brooks and Lozano-Pérez 1985.
  */

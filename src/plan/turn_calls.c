@@ -15,7 +15,7 @@ struct pir_turn_plan {
 };
 
 /* A question that is being decided; pieces are held by `space`. */
-struct turning {
+struct turn_call {
     const pir_turn_plan_input *input;
     pir_turn_plan_options how;
     pir_plan_space space;
@@ -30,7 +30,7 @@ static bool is_within(pir_vec3 t, pir_vec3 low, pir_vec3 high) {
     return t.x >= low.x && t.y >= low.y && t.z >= low.z && t.x <= high.x && t.y <= high.y && t.z <= high.z;
 }
 
-static pir_status check_numbers(const struct turning *t) {
+static pir_status check_numbers(const struct turn_call *t) {
     const pir_turn_plan_input *in = t->input;
     const struct {
         const char *name;
@@ -59,7 +59,7 @@ static pir_status check_numbers(const struct turning *t) {
     return PIR_OK;
 }
 
-static pir_status add_all(struct turning *t, const pir_solid *const *solid, size_t count, const char *what,
+static pir_status add_all(struct turn_call *t, const pir_solid *const *solid, size_t count, const char *what,
                           pir_plan_pieces *pieces) {
     pir_status status = PIR_OK;
     if (count == 0)
@@ -72,7 +72,7 @@ static pir_status add_all(struct turning *t, const pir_solid *const *solid, size
     return status;
 }
 
-static pir_status decide(struct turning *t, pir_turn_plan *plan) {
+static pir_status decide(struct turn_call *t, pir_turn_plan *plan) {
     const pir_turn_plan_input *in = t->input;
     pir_status status = add_all(t, in->robot, in->robot_count, "robot", &t->robot);
     if (status == PIR_OK)
@@ -107,7 +107,7 @@ static pir_status decide(struct turning *t, pir_turn_plan *plan) {
     return status;
 }
 
-static pir_status answer(struct turning *t, pir_turn_plan **ret_plan) {
+static pir_status answer(struct turn_call *t, pir_turn_plan **ret_plan) {
     pir_status status = check_numbers(t);
     if (status != PIR_OK)
         return status;
@@ -131,7 +131,7 @@ pir_status pir_turn_plan_create(const pir_turn_plan_input *input, const pir_turn
                                 pir_turn_plan **ret_plan) {
     if (!input || !ret_plan)
         return PIR_ERR_ARGUMENT;
-    struct turning t = {.input = input, .how = pir_turn_plan_options_default()};
+    struct turn_call t = {.input = input, .how = pir_turn_plan_options_default()};
     pir_report own = {0}, *const *caller = options ? &options->report : NULL;
     pir_status status = pir_options_take("pir_turn_plan_options", options, &t.how, caller);
     if (status != PIR_OK)
