@@ -206,7 +206,7 @@ typedef struct pir_turn_plan_step {
  * from 0 to below 1, arcs that are no such number), PIR_ERR_NOT_FINITE, PIR_ERR_EMPTY without a robot or obstacles,
  * PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid), PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
  *
- * Source: cells of translations over intervals of the angle, after Lozano-Pérez 1983 and Brooks and Lozano-Pérez 1985.
+ * Source: cells of translations over intervals of the angle, after Brooks and Lozano-Pérez 1985.
  */
 PIR_API pir_status pir_turn_plan_create(const pir_turn_plan_input *input, const pir_turn_plan_options *options,
                                         pir_turn_plan **ret_plan);
