@@ -48,8 +48,10 @@
     }
 
     function search(query) {
-        const words = query.split(/\s+/).map(meant);
-        return ENTRIES.map((entry, i) => ({entry, points: score(folded[i], query, words)}))
+        const words = query.split(/\s+/).map(meant), joined = query.replace(/[\s-]+/g, "");
+        // "ray cast" is a word of its own as well
+        const asked = [words, ...(joined !== query && Object.hasOwn(SYNONYMS, joined) ? [[meant(joined)]] : [])];
+        return ENTRIES.map((entry, i) => ({entry, points: Math.max(...asked.map(w => score(folded[i], query, w)))}))
             .filter(hit => hit.points > 0)
             .sort((a, b) => b.points - a.points || a.entry[0].length - b.entry[0].length).slice(0, LIMIT);
     }
