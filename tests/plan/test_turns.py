@@ -105,7 +105,7 @@ def main(program, folder):
     print("seed", seed)
     random_ = random.Random(seed)
     for lie in LIES:
-        for _ in range(2):
+        for _ in range(2 if os.environ.get("PIR_TEST_CASES") else 1):
             changed = copy.deepcopy(told)
             lie(changed, random_)
             assert not is_proven(turns, changed), f"{lie.__name__}: a lie is accepted"
