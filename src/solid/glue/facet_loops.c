@@ -4,11 +4,15 @@
  * left, and goes back only where no other leads on: between an edge and the next lies then a wedge of the facet's
  * inside, and parts that only touch at a corner get loops of their own. At a loop's extreme corner all edges lead to
  * one side; the loop goes round a hole when the wedge on the other side is one of its own.
+ *
+ * Where loops begin, and their order, is that of their corners along a direction, so that it does not depend on the
+ * order of the runs: equal outlines have equal loops, whatever polygons they were made of.
  */
 #include "solid/glue/facet_loops.h"
 
 #include <math.h>
 
+#include "base/sort.h"
 #include "solid/glue/slits.h"
 #include "solid/space/exact.h"
 
@@ -22,6 +26,7 @@ struct loop_tracer {
     bool *used;          /* per run */
     uint32_t level[2];   /* the two coordinates that tell points of the plane apart */
     uint32_t axis[2];    /* their directions */
+    uint32_t along;      /* a direction along which few points are level */
 };
 
 static uint32_t from_of(const pir_run *run) {
@@ -80,6 +85,74 @@ static void set_axes(struct loop_tracer *t) {
     }
 }
 
+/* The order of two points of the plane: below 0 when a comes first, 0 only when they are one. */
+static int compare_points(struct loop_tracer *t, uint32_t a, uint32_t b) {
+    int order = a == b ? 0 : pir_space_order(t->space, t->along, a, b);
+    for (int k = 0; k < 2 && order == 0 && a != b; k++)
+        order = pir_space_order(t->space, t->axis[k], a, b);
+    return -order;
+}
+
+/* The order of two loops, each from a corner on. */
+static int compare_loops(struct loop_tracer *t, const pir_loop *a, uint32_t from_a, const pir_loop *b,
+                         uint32_t from_b) {
+    const uint32_t *x = t->list->corner + a->first, *y = t->list->corner + b->first;
+    const uint32_t least = a->count < b->count ? a->count : b->count;
+    for (uint32_t i = 0; i < least; i++) {
+        const int order = compare_points(t, x[(from_a + i) % a->count], y[(from_b + i) % b->count]);
+        if (order != 0)
+            return order;
+    }
+    return (a->count > b->count) - (a->count < b->count);
+}
+
+/* Makes a loop begin at its first corner. */
+static void turn_loop(struct loop_tracer *t, const pir_loop *loop) {
+    pir_loop_list *list = t->list;
+    uint32_t *corner = list->corner + loop->first, best = 0;
+    if (!pir_space_grow(t->space, (void **)&list->spare, &list->spare_room, loop->count, sizeof *list->spare))
+        return;
+    for (uint32_t i = 1; i < loop->count; i++)
+        if (compare_points(t, corner[i], corner[best]) < 0 ||
+            (corner[i] == corner[best] && compare_loops(t, loop, i, loop, best) < 0))
+            best = i;
+    for (uint32_t i = 0; i < loop->count; i++)
+        list->spare[i] = corner[(best + i) % loop->count];
+    for (uint32_t i = 0; i < loop->count; i++)
+        corner[i] = list->spare[i];
+}
+
+static bool loop_before(void *context, uint32_t a, uint32_t b) {
+    struct loop_tracer *t = context;
+    const pir_loop *loop = t->list->loop + t->first_loop;
+    return compare_loops(t, &loop[a], 0, &loop[b], 0) < 0;
+}
+
+/* Puts the loops of the group in order. */
+static void sort_loops(struct loop_tracer *t) {
+    const pir_allocator *a = &t->space->allocator;
+    const uint32_t count = t->list->count - t->first_loop;
+    pir_loop *loop = t->list->loop + t->first_loop;
+    uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
+    pir_loop *copy = PIR_NEW(a, pir_loop, count);
+    if (order && work && copy) {
+        for (uint32_t i = 0; i < count; i++) {
+            order[i] = i;
+            copy[i] = loop[i];
+        }
+        pir_sort(order, count, work, loop_before, t);
+        for (uint32_t i = 0; i < count; i++) {
+            loop[i] = copy[order[i]];
+            loop[i].within = t->first_loop + i;
+        }
+    } else {
+        t->space->status = PIR_ERR_MEMORY;
+    }
+    PIR_FREE(a, order, count);
+    PIR_FREE(a, work, count);
+    PIR_FREE(a, copy, count);
+}
+
 /* Whether a loop goes round a hole: a turn to the right, or back, at the corner that is first along one axis, then
  * along the other. */
 static bool is_hole(struct loop_tracer *t, const pir_loop *loop) {
@@ -113,7 +186,7 @@ static void trace_loop(struct loop_tracer *t, uint32_t start) {
     if (!pir_space_grow(t->space, (void **)&list->loop, &list->room, list->count, sizeof *list->loop))
         return;
     loop.hole = is_hole(t, &loop);
-    loop.within = list->count;
+    turn_loop(t, &loop);
     list->loop[list->count++] = loop;
 }
 
@@ -189,7 +262,9 @@ static void trace_group(struct loop_tracer *t) {
     for (uint32_t r = t->first; r < t->end && t->space->status == PIR_OK; r++)
         if (!t->used[r])
             trace_loop(t, r);
-    for (uint32_t l = t->first_loop; l < list->count; l++)
+    if (t->space->status == PIR_OK)
+        sort_loops(t);
+    for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++)
         if (list->loop[l].hole)
             find_facet(t, l);
     for (uint32_t l = t->first_loop; l < list->count && t->space->status == PIR_OK; l++)
@@ -201,6 +276,10 @@ void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline) {
     pir_space *space = outline->space;
     *loops = (pir_loop_list){.space = space};
     struct loop_tracer t = {.list = loops, .space = space, .outline = outline};
+    mpz_set_ui(space->t[0], 61);
+    mpz_set_ui(space->t[1], 53);
+    mpz_set_ui(space->t[2], 41);
+    t.along = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
     t.used = PIR_ZEROED(&space->allocator, bool, outline->run_count);
     if (!t.used)
         space->status = PIR_ERR_MEMORY;
