@@ -324,12 +324,30 @@ static bool same_plane(pir_space *space, const struct sum_plane *f, const struct
     return f->body == g->body && parallel(space, f->direction[0], g->direction[0]) && holds_pair(space, f, g->through);
 }
 
+/* Whether a line that h holds, along an edge of its own or its wall, is where f and g meet. */
+static bool own_line_is_meet(pir_space *space, const struct sum_plane *h, const struct sum_plane *f,
+                             const struct sum_plane *g) {
+    if (h->kind == WALL) {
+        const struct sum_line line = {h->body, h->direction[0], h->through};
+        return holds_line(space, f, &line) && holds_line(space, g, &line);
+    }
+    for (int b = 0; b < 2 && h->kind == BY_EDGES; b++) {
+        struct sum_line line = {b, h->direction[b], h->through};
+        line.through.of[1 - b] = f->through.of[1 - b];
+        if (holds_pair(space, h, line.through) && holds_line(space, f, &line) && holds_line(space, g, &line))
+            return true;
+    }
+    return false;
+}
+
 /* Whether h holds the line where f and g meet. */
 static bool holds_meet(pir_space *space, const struct sum_plane *h, const struct sum_plane *f,
                        const struct sum_plane *g) {
     struct sum_line line;
     if (same_plane(space, h, f) || same_plane(space, h, g) ||
         share_line(space, (const struct sum_plane *const[]){f, g, h}))
+        return true;
+    if (f->kind != UNKNOWN && g->kind != UNKNOWN && own_line_is_meet(space, h, f, g))
         return true;
     return common_line(space, f, g, &line) && holds_line(space, h, &line);
 }
@@ -425,4 +443,8 @@ bool pir_identity_of_lines(pir_space *space, const uint32_t f[2], const uint32_t
             return false;
     }
     return true;
+}
+
+bool pir_identity_of_way(pir_space *space, uint32_t direction, uint32_t a, uint32_t b) {
+    return along(space, space->direction[direction].rest, space->point[a].of[0], space->point[b].of[0]);
 }

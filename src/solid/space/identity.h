@@ -24,4 +24,7 @@ bool pir_identity_of_planes(pir_space *space, uint32_t f, uint32_t g);
 /* Whether the lines where planes f[0] and f[1], g[0] and g[1] meet are one. */
 bool pir_identity_of_lines(pir_space *space, const uint32_t f[2], const uint32_t g[2]);
 
+/* Whether the way between two points of one body leads along a direction of it, either way; or they are one. */
+bool pir_identity_of_way(pir_space *space, uint32_t direction, uint32_t a, uint32_t b);
+
 #endif
