@@ -14,8 +14,11 @@
 #define FRAMES_MOST 10000000
 #define STEPS_MOST  1000000000
 
+/* Of hulls, and of solids: auto and update stand first in both. */
 static const char *const method_names[] = {"auto", "update", "walk", "cgm", NULL};
 static const pir_method methods[] = {PIR_METHOD_AUTO, PIR_METHOD_UPDATE, PIR_METHOD_WALK, PIR_METHOD_CGM};
+static const char *const solid_method_names[] = {"auto", "update", "rebuild", NULL};
+static const pir_solid_method solid_methods[] = {PIR_SOLID_AUTO, PIR_SOLID_UPDATE, PIR_SOLID_REBUILD};
 
 static bool read_motion(const struct args *args, struct track_request *request) {
     const char *axis = args_value(args, "--axis");
@@ -61,6 +64,7 @@ static bool read_region(const struct args *args, struct track_request *request) 
 
 static bool read_request(const struct args *args, struct track_request *request) {
     int method = 0;
+    const bool solid = args_has(args, "--solid");
     *request = (struct track_request){
         .p = args->positional[0],
         .q = args->positional[1],
@@ -75,7 +79,7 @@ static bool read_request(const struct args *args, struct track_request *request)
     };
     if (!read_motion(args, request) || !read_outputs(args, request) ||
         !args_count(args, "--verify-every", 1, FRAMES_MOST, &request->verify_every) ||
-        !args_choice(args, "--method", method_names, &method))
+        !args_choice(args, "--method", solid ? solid_method_names : method_names, &method))
         return false;
     if (!read_region(args, request) || !args_numbers(args, "--tolerance", 1, &request->tolerance))
         return false;
@@ -87,8 +91,9 @@ static bool read_request(const struct args *args, struct track_request *request)
         complain("track: --dump writes exact frames, and --tolerance %g allows others", request->tolerance);
         return false;
     }
-    request->method = methods[method];
-    request->method_name = method_names[method];
+    request->method = methods[solid ? 0 : method];
+    request->solid_method = solid_methods[solid ? method : 0];
+    request->method_name = (solid ? solid_method_names : method_names)[method];
     return true;
 }
 
@@ -113,10 +118,8 @@ SUBCOMMAND(track) {
     const bool solid = args_has(args, "--solid");
     if (!read_request(args, &request) || !check_solid(args, solid))
         return EXIT_BAD_INPUT;
-    if (solid) {
-        request.method_name = NULL;
+    if (solid)
         return solid_track(args, &request);
-    }
     int status = EXIT_BAD_INPUT;
     pir_polytope *q = NULL, *p = model_load(args, 0, &request.surfaces[0]);
     if (p)

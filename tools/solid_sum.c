@@ -112,7 +112,7 @@ static pir_status compute(const pir_solid *p, const pir_solid *q, const struct r
     if (status == PIR_OK)
         status = pir_solid_sum_mesh(sum, PIR_EXACT, &outcome->mesh);
     if (status == PIR_OK)
-        pir_solid_sum_describe(sum, &outcome->info);
+        status = pir_solid_sum_describe(sum, &outcome->info);
     pir_solid_sum_destroy(sum);
     return status;
 }

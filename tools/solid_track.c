@@ -113,7 +113,7 @@ static bool run_frame(struct solid_run *run, uint64_t frame) {
     const pir_quat rotation = motion_next(&run->motion);
     const uint64_t blocks = run->blocks;
     const int64_t start = clock_now();
-    pir_status status = pir_solid_sum_rotate(run->sum, rotation);
+    pir_status status = pir_solid_sum_rotate(run->sum, rotation, request->solid_method);
     times_add(&run->rotate_times, frame, clock_now() - start);
     if (frame >= run->warm_up)
         run->late_allocations += run->blocks - blocks;
@@ -134,7 +134,7 @@ static bool run_frames(struct solid_run *run) {
     }
     run->interrupted = interrupt_asked() && run->frames < run->request->frames;
     progress_end(&run->progress);
-    pir_solid_sum_describe(run->sum, &run->info);
+    good = good && told(run, run->frames, pir_solid_sum_describe(run->sum, &run->info));
     return good && ((times_order(&run->rotate_times, &run->rotate) && times_order(&run->fresh_times, &run->fresh)) ||
                     told(run, run->frames, PIR_ERR_MEMORY));
 }

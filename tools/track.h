@@ -19,6 +19,7 @@ struct track_request {
     bool difference; /* of the sum of Q and the reflected P */
     bool open;       /* solids without their boundaries */
     pir_method method;
+    pir_solid_method solid_method;
     const char *method_name;
     double tolerance; /* 0: exact */
     pir_vec3 region;  /* the axis of the region that is kept, where its half-angle is below 180 degrees */

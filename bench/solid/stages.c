@@ -64,7 +64,7 @@ stages stages_measure(const pir_solid *p, const pir_solid *q) {
     const double begun = stages_clock();
     check(pir_solid_sum_create(p, q, (pir_quat){0, 0, 0, 1}, NULL, &sum));
     check(pir_solid_sum_mesh(sum, PIR_EXACT, &mesh));
-    pir_solid_sum_describe(sum, &made.info);
+    check(pir_solid_sum_describe(sum, &made.info));
     pir_mesh_destroy(mesh);
     pir_solid_sum_destroy(sum);
     made.whole = stages_clock() - begun;

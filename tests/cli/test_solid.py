@@ -70,7 +70,12 @@ class Solid(CommandTest):
                                                                "2", "--verify"))
         self.bad("track", model, model, "--open", says="give --solid as well")
         self.bad("track", model, model, "--solid", "--tolerance", "1", says="--tolerance is for hulls")
-        self.bad("track", model, model, "--solid", "--method", "walk", says="--method is for hulls")
+        self.bad("track", model, model, "--solid", "--method", "walk", says="--method")
+        self.bad("track", model, model, "--method", "rebuild", says="--method")
+        for method in "auto", "update", "rebuild":
+            told = self.data("track", model, model, "--solid", "--frames", "9", "--steps", "5000", "--verify",
+                             "--method", method)
+            self.assertEqual((told["method"], told["verified"], told["mismatches"]), (method, 9, 0))
 
     def test_what_a_sum_writes_is_a_solid_again(self):
         # a ring round a hole, of unit cells, and cells that touch along an edge

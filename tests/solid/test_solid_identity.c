@@ -13,11 +13,11 @@
 #include <pirouette/pirouette.h>
 
 #include "solid/bodies.h"
+#include "solid/kept/solid_sum.h"
 #include "solid/models.h"
 #include "solid/space/exact.h"
 #include "solid/space/identity.h"
 #include "solid/space/places.h"
-#include "solid/sum/solid_sum.h"
 
 static const char *const pairs[][2] = {{"gear8", "star5"}, {"stella", "clamp"}, {"spoon", "frame"}};
 #define PAIRS (sizeof pairs / sizeof *pairs)

@@ -59,13 +59,19 @@ static pir_quat next_rotation(struct history *h) {
     return h->now;
 }
 
+static pir_solid_method any_method(test_random *random) {
+    static const pir_solid_method methods[] = {PIR_SOLID_AUTO, PIR_SOLID_UPDATE, PIR_SOLID_UPDATE, PIR_SOLID_UPDATE,
+                                               PIR_SOLID_REBUILD};
+    return methods[test_random_below(random, 5)];
+}
+
 static void expect_same(pir_solid_sum *sum, pir_solid_sum *fresh, const char *what, uint64_t frame) {
     pir_mesh *a = NULL, *b = NULL;
     pir_solid_sum_info of_a, of_b;
     assert_int_equal(pir_solid_sum_mesh(sum, PIR_EXACT, &a), PIR_OK);
     assert_int_equal(pir_solid_sum_mesh(fresh, PIR_EXACT, &b), PIR_OK);
-    pir_solid_sum_describe(sum, &of_a);
-    pir_solid_sum_describe(fresh, &of_b);
+    assert_int_equal(pir_solid_sum_describe(sum, &of_a), PIR_OK);
+    assert_int_equal(pir_solid_sum_describe(fresh, &of_b), PIR_OK);
     expect(pir_mesh_equal(a, b), "%s, frame %llu: %u and %u facets differ", what, (unsigned long long)frame,
            pir_mesh_facet_count(a), pir_mesh_facet_count(b));
     expect(of_a.vertices == of_b.vertices && of_a.edges == of_b.edges && of_a.facets == of_b.facets &&
@@ -101,11 +107,11 @@ static void sum_is_that_made_anew_at_every_rotation(void **state) {
         options.difference = i % 4 > 1;
         options.open = i % 2;
         assert_int_equal(pir_solid_sum_create(p, q, history.now, &options, &sum), PIR_OK);
-        for (uint64_t frame = 0; frame < solid_cases(12); frame++) {
+        for (uint64_t frame = 0; frame < solid_cases(30); frame++) {
             pir_solid_sum *fresh = NULL;
             const pir_quat rotation = next_rotation(&history);
             const uint64_t before = pir_solid_sum_generation(sum);
-            assert_int_equal(pir_solid_sum_rotate(sum, rotation), PIR_OK);
+            assert_int_equal(pir_solid_sum_rotate(sum, rotation, any_method(&history.random)), PIR_OK);
             if (test_random_below(&history.random, 10) == 0) {
                 const int operand = (int)test_random_below(&history.random, 2);
                 scale[operand] =
@@ -175,9 +181,9 @@ static void refused_call_leaves_the_sum_as_it_was(void **state) {
     assert_null(sum);
     assert_int_equal(pir_solid_sum_create(p, p, turn, NULL, &sum), PIR_OK);
     assert_int_equal(pir_solid_sum_create(p, p, turn, NULL, &other), PIR_OK);
-    assert_int_equal(pir_solid_sum_rotate(sum, zero), PIR_ERR_ZERO_QUATERNION);
-    assert_int_equal(pir_solid_sum_rotate(sum, nan_quat), PIR_ERR_NOT_FINITE);
-    assert_int_equal(pir_solid_sum_rotate(NULL, turn), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_rotate(sum, zero, PIR_SOLID_AUTO), PIR_ERR_ZERO_QUATERNION);
+    assert_int_equal(pir_solid_sum_rotate(sum, nan_quat, PIR_SOLID_UPDATE), PIR_ERR_NOT_FINITE);
+    assert_int_equal(pir_solid_sum_rotate(NULL, turn, PIR_SOLID_AUTO), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_solid_sum_set_scale(sum, PIR_OPERAND_P, 0), PIR_ERR_ARGUMENT);
     assert_int_equal(pir_solid_sum_set_scale(sum, PIR_OPERAND_P, INFINITY), PIR_ERR_NOT_FINITE);
     assert_int_equal(pir_solid_sum_set_scale(sum, (pir_operand)7, 1), PIR_ERR_ARGUMENT);
@@ -212,7 +218,8 @@ static void sum_outlives_rotations_that_run_out_of_memory(void **state) {
         for (uint64_t n = 1; status != PIR_OK; n += 1 + n / 8) {
             const uint64_t generation = pir_solid_sum_generation(sum);
             memory.fail_at = memory.requests + n;
-            status = n % 2 ? pir_solid_sum_rotate(sum, second) : pir_solid_sum_set_scale(sum, PIR_OPERAND_Q, 3);
+            status = n % 2 ? pir_solid_sum_rotate(sum, second, PIR_SOLID_UPDATE)
+                           : pir_solid_sum_set_scale(sum, PIR_OPERAND_Q, 3);
             memory.fail_at = 0;
             if (status == PIR_OK)
                 break;
@@ -230,6 +237,70 @@ static void sum_outlives_rotations_that_run_out_of_memory(void **state) {
     pir_solid_release(p);
 }
 
+/* Likewise in an update of what is kept, and in the mesh after it. */
+static void kept_sum_outlives_updates_that_run_out_of_memory(void **state) {
+    (void)state;
+    const pir_quat first = {.3, .1, .2, .9}, second = {.301, .1, .203, .9};
+    pir_solid *p = solid_model_new("star5", 1), *q = solid_model_new("stella", 2);
+    pir_solid_sum *fresh[2] = {NULL, NULL}, *sum = NULL;
+    test_memory memory = {0};
+    const pir_allocator allocator = test_allocator(&memory);
+    pir_solid_sum_options options = pir_solid_sum_options_default();
+    unsigned failures = 0;
+    assert_int_equal(pir_solid_sum_create(p, q, first, &options, &fresh[0]), PIR_OK);
+    assert_int_equal(pir_solid_sum_create(p, q, second, &options, &fresh[1]), PIR_OK);
+    options.allocator = &allocator;
+    assert_int_equal(pir_solid_sum_create(p, q, first, &options, &sum), PIR_OK);
+    for (uint64_t n = 1, done = 0; done == 0; n += 1 + n / 16) {
+        pir_mesh *mesh = NULL;
+        assert_int_equal(pir_solid_sum_rotate(sum, first, PIR_SOLID_UPDATE), PIR_OK);
+        memory.fail_at = memory.requests + n;
+        const pir_status turned = pir_solid_sum_rotate(sum, second, PIR_SOLID_UPDATE);
+        const pir_status made = turned == PIR_OK ? pir_solid_sum_mesh(sum, PIR_DOUBLE, &mesh) : turned;
+        memory.fail_at = 0;
+        assert_true(made == PIR_OK || made == PIR_ERR_MEMORY);
+        expect_same(sum, fresh[turned == PIR_OK], "an update out of memory", n);
+        pir_mesh_destroy(mesh);
+        failures += made != PIR_OK;
+        done = made == PIR_OK;
+    }
+    pir_solid_sum_destroy(sum);
+    expect(memory.blocks == 0 && !memory.wrong_size && !memory.overrun, "%zu blocks are left", memory.blocks);
+    expect(failures > 10, "%u calls failed", failures);
+    for (int k = 0; k < 2; k++)
+        pir_solid_sum_destroy(fresh[k]);
+    pir_solid_release(q);
+    pir_solid_release(p);
+}
+
+/* Small steps about one axis are updates that clip little; where nothing can be kept, all is made. */
+static void updates_clip_what_has_changed(void **state) {
+    (void)state;
+    pir_solid *p = solid_model_new("mushroom6", 1), *q = solid_model_new("star5", 1);
+    pir_solid_sum *sum = NULL;
+    pir_solid_sum_info info;
+    struct history history = {.now = {.3, .1, .2, .9}};
+    uint64_t clipped = 0, candidates = 0;
+    assert_int_equal(pir_solid_sum_create(p, q, history.now, NULL, &sum), PIR_OK);
+    for (int frame = 0; frame < 40; frame++) {
+        history.now = turned(history.now, (pir_vec3){.48, .6, .64}, 1.3e-3);
+        assert_int_equal(pir_solid_sum_rotate(sum, history.now, PIR_SOLID_AUTO), PIR_OK);
+        assert_int_equal(pir_solid_sum_describe(sum, &info), PIR_OK);
+        clipped += frame > 0 ? info.clipped : 0;
+        candidates += frame > 0 ? info.candidates : 0;
+    }
+    expect(clipped > 0 && 4 * clipped < candidates, "%llu of %llu", (unsigned long long)clipped,
+           (unsigned long long)candidates);
+    assert_int_equal(pir_solid_sum_rotate(sum, (pir_quat){0, 0, 0, 1}, PIR_SOLID_UPDATE), PIR_OK);
+    assert_int_equal(pir_solid_sum_describe(sum, &info), PIR_OK);
+    assert_int_equal(info.clipped, info.candidates);
+    assert_int_equal(pir_solid_sum_rotate(sum, history.now, (pir_solid_method)3), PIR_ERR_ARGUMENT);
+    assert_int_equal(pir_solid_sum_describe(NULL, &info), PIR_ERR_ARGUMENT);
+    pir_solid_sum_destroy(sum);
+    pir_solid_release(q);
+    pir_solid_release(p);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -237,6 +308,8 @@ int main(void) {
         cmocka_unit_test(scaled_sum_is_that_of_scaled_solids),
         cmocka_unit_test(refused_call_leaves_the_sum_as_it_was),
         cmocka_unit_test(sum_outlives_rotations_that_run_out_of_memory),
+        cmocka_unit_test(kept_sum_outlives_updates_that_run_out_of_memory),
+        cmocka_unit_test(updates_clip_what_has_changed),
     };
     return cmocka_run_group_tests_name("sums of solids that turn", tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 
 #include <pirouette/solid.h>
 
-/* ret_info may be NULL. Nothing is written when it fails. */
+/* ret_info may be NULL. Nothing is made when it fails. */
 static inline pir_status solid_sum_mesh(const pir_solid *p, const pir_solid *q, pir_quat rotation,
                                         const pir_solid_sum_options *options, pir_solid_sum_info *ret_info,
                                         pir_mesh **ret_mesh) {
@@ -14,7 +14,7 @@ static inline pir_status solid_sum_mesh(const pir_solid *p, const pir_solid *q, 
     if (status == PIR_OK)
         status = pir_solid_sum_mesh(sum, PIR_EXACT, ret_mesh);
     if (status == PIR_OK && ret_info)
-        pir_solid_sum_describe(sum, ret_info);
+        status = pir_solid_sum_describe(sum, ret_info);
     pir_solid_sum_destroy(sum);
     return status;
 }

@@ -28,6 +28,11 @@ typedef struct pir_segment {
     uint32_t a, b;
 } pir_segment;
 
+typedef struct pir_segment_list {
+    pir_segment *segment;
+    uint32_t count, room;
+} pir_segment_list;
+
 /* A vertex within a run of a line, where runs of other lines end. */
 typedef struct pir_outline_touch {
     uint32_t line, point;

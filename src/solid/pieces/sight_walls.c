@@ -72,7 +72,7 @@ static uint32_t plane_across(struct sight_walls *s, uint32_t wall, uint32_t poin
     const pir_space_plane *plane = &s->space->plane[wall >> 1];
     const mpz_t *along = (const mpz_t *)s->space->number + s->space->direction[plane->direction[0]].exact;
     const int axis = mpz_cmpabs(along[0], along[1]) >= 0 ? 0 : 1;
-    return pir_space_add_plane(s->space, (const uint32_t[]){s->ceilings.axis[axis], PIR_SPACE_NONE}, false,
+    return pir_space_add_plane(s->space, (const uint32_t[]){s->space->axis[axis], PIR_SPACE_NONE}, false,
                                (const uint32_t[]){point, PIR_SPACE_NONE});
 }
 

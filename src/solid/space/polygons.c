@@ -12,12 +12,6 @@
 
 void pir_polygons_init(pir_polygons *polygons, pir_space *space) {
     *polygons = (pir_polygons){.space = space};
-    for (uint32_t k = 0; k < 3; k++) {
-        mpz_set_ui(space->t[0], k == 0);
-        mpz_set_ui(space->t[1], k == 1);
-        mpz_set_ui(space->t[2], k == 2);
-        polygons->axis[k] = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
-    }
 }
 
 void pir_polygons_finish(pir_polygons *polygons) {
@@ -74,7 +68,7 @@ uint32_t pir_polygons_add(pir_polygons *polygons, uint32_t half, const uint32_t 
     const bool turned = (n[axis] < 0) != (half & 1);
     const uint32_t made = begin(polygons, half);
     for (uint32_t i = 0; i < count && space->status == PIR_OK; i++) {
-        const uint32_t wall = pir_space_add_plane(space, (const uint32_t[]){direction[i], polygons->axis[axis]}, turned,
+        const uint32_t wall = pir_space_add_plane(space, (const uint32_t[]){direction[i], space->axis[axis]}, turned,
                                                   (const uint32_t[]){point[i], PIR_SPACE_NONE});
         add_corner(polygons, point[i], pir_half(wall, reversed && reversed[i]));
     }

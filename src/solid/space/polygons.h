@@ -17,10 +17,9 @@ typedef struct pir_polygons {
     pir_space *space;
     uint32_t count, room, corner_count, point_room, wall_room, sign_room;
     pir_polygon *polygon;
-    uint32_t *point;  /* corners, counter-clockwise from above */
-    uint32_t *wall;   /* per corner: of the side that begins there */
-    int8_t *sign;     /* scratch, per corner of the polygon at hand */
-    uint32_t axis[3]; /* directions of the axes */
+    uint32_t *point; /* corners, counter-clockwise from above */
+    uint32_t *wall;  /* per corner: of the side that begins there */
+    int8_t *sign;    /* scratch, per corner of the polygon at hand */
 } pir_polygons;
 
 /* A ball that holds a polygon. */

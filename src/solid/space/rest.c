@@ -130,6 +130,8 @@ void pir_rest_keep_edge(pir_space_rest *rest, uint32_t direction, uint32_t a, ui
 }
 
 void pir_rest_settle(pir_space_rest *rest) {
+    for (int k = 0; k < 3; k++)
+        pir_rest_keep_direction(rest, rest->space->axis[k], 1);
     rest->point_mark = rest->space->point_count;
     rest->direction_mark = rest->space->direction_count;
     rest->plane_mark = rest->space->plane_count;
@@ -198,15 +200,18 @@ static void turn_doubles(pir_space_rest *rest) {
     }
 }
 
-void pir_rest_turn(pir_space_rest *rest, pir_rotation *rotation, const double scale[2]) {
+void pir_rest_turn(pir_space_rest *rest, pir_rotation *rotation, const double scale[2], bool keep) {
     pir_space *space = rest->space;
     rest->rotation = rotation;
     rest->scale[0] = scale[0];
     rest->scale[1] = scale[1];
-    space->point_count = rest->point_mark;
     space->direction_count = rest->direction_mark;
-    space->plane_count = rest->plane_mark;
-    pir_space_drop_exact(space);
+    if (!keep) {
+        space->point_count = rest->point_mark;
+        space->plane_count = rest->plane_mark;
+        space->spare_points.count = space->spare_planes.count = 0;
+    }
+    pir_space_begin_frame(space);
     set_matrix(rest, 0);
     set_matrix(rest, 1);
     turn_doubles(rest);

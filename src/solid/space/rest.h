@@ -67,8 +67,8 @@ void pir_rest_keep_edge(pir_space_rest *rest, uint32_t direction, uint32_t a, ui
 void pir_rest_settle(pir_space_rest *rest);
 
 /* Turns P by a rotation, which is borrowed until the next call, and brings both bodies to their scales. All else in the
- * space above the marks is forgotten. */
-void pir_rest_turn(pir_space_rest *rest, pir_rotation *rotation, const double scale[2]);
+ * space above the marks is forgotten; with `keep`, directions alone, and points and planes there are to be renewed. */
+void pir_rest_turn(pir_space_rest *rest, pir_rotation *rotation, const double scale[2], bool keep);
 
 /* The exact numbers of a point, X, Y, Z, W > 0, and of a direction, as they are turned; not in lowest terms. */
 void pir_rest_turn_point(const pir_space_rest *rest, uint32_t item, mpz_t *ret);

@@ -11,6 +11,7 @@
 
 #include "solid/space/exact.h"
 #include "solid/space/identity.h"
+#include "solid/space/record.h"
 #include "solid/space/space.h"
 
 /* Sides that exact numbers told and that are kept at most, 12 bytes each. */
@@ -55,6 +56,13 @@ static struct pir_known_side *known_side(pir_space *space, uint32_t a, uint32_t 
     return &space->side[mixed >> 32 & (space->side_room - 1)];
 }
 
+/* The sign; where it is 0 the record of the job at hand may end with this rotation. */
+static int note_zero(pir_space *space, int sign) {
+    if (space->record && sign == 0)
+        space->record->fleeting = true;
+    return sign;
+}
+
 int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point) {
     if (is_made_in(&space->plane[plane], plane, &space->point[point], point) || pir_identity_holds(space, plane, point))
         return 0;
@@ -65,13 +73,13 @@ int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point) {
         return 0;
     struct pir_known_side *known = known_side(space, a, x);
     if (known->plane == a && known->point == x)
-        return known->sign;
+        return note_zero(space, known->sign);
     mpz_t *n = space->number + a, *p = space->number + x;
     pir_numbers_dot(space->t[17], n, p, 3);
     mpz_submul(space->t[17], n[3], p[3]);
     *known = (struct pir_known_side){a, x, mpz_sgn(space->t[17])};
     space->side_count++;
-    return known->sign;
+    return note_zero(space, known->sign);
 }
 
 /* --- determinants --- */

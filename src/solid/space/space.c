@@ -7,6 +7,7 @@
 
 #include "base/report.h"
 #include "solid/space/exact.h"
+#include "solid/space/record.h"
 
 #define SCRATCH (sizeof((pir_space *)0)->t / sizeof(mpz_t))
 
@@ -73,6 +74,12 @@ void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t lim
     pir_space_add_direction(space, one, one, one);
     pir_space_add_point(space, one, one, one, one);
     pir_space_add_plane(space, (const uint32_t[]){0, PIR_SPACE_NONE}, false, (const uint32_t[]){0, PIR_SPACE_NONE});
+    for (int k = 0; k < 3; k++) {
+        mpz_set_ui(space->t[0], k == 0);
+        mpz_set_ui(space->t[1], k == 1);
+        mpz_set_ui(space->t[2], k == 2);
+        space->axis[k] = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
+    }
     mpz_clear(one);
 }
 
@@ -82,6 +89,8 @@ void pir_space_finish(pir_space *space) {
     pir_space_drop_numbers(space, 0);
     pir_intern_finish(&space->known_point);
     pir_intern_finish(&space->known_plane);
+    pir_space_shrink(space, space->spare_points.number, space->spare_points.room, sizeof(uint32_t));
+    pir_space_shrink(space, space->spare_planes.number, space->spare_planes.room, sizeof(uint32_t));
     pir_space_shrink(space, space->side, space->side_room, sizeof *space->side);
     pir_space_shrink(space, space->number, space->number_room, sizeof *space->number);
     pir_space_shrink(space, space->direction, space->direction_room, sizeof *space->direction);
@@ -95,11 +104,9 @@ void pir_space_fault(pir_space *space) {
         space->status = PIR_ERR_INTERNAL;
 }
 
-bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size) {
+bool pir_space_widen(pir_space *space, void **array, uint32_t *room, size_t count, size_t size) {
     if (space->status != PIR_OK)
         return false;
-    if (count < *room)
-        return true;
     const size_t larger = 2 * count + 16;
     if (larger >= UINT32_MAX / 2) {
         space->status = PIR_ERR_LIMIT;
@@ -204,13 +211,23 @@ uint32_t pir_space_add_line_direction(pir_space *space, uint32_t f, uint32_t g) 
     return made;
 }
 
+static uint32_t take_point(pir_space *space) {
+    if (space->reuses && space->spare_points.count > 0)
+        return space->spare_points.number[--space->spare_points.count];
+    if (!pir_space_grow(space, (void **)&space->point, &space->point_room, space->point_count, sizeof *space->point))
+        return 0;
+    return space->point_count++;
+}
+
 /* A new point without coordinates. */
 static uint32_t new_point(pir_space *space, enum pir_point_kind kind) {
-    const uint32_t made = space->point_count;
-    if (!pir_space_grow(space, (void **)&space->point, &space->point_room, made, sizeof *space->point))
+    const uint32_t made = take_point(space);
+    if (space->status != PIR_OK)
         return 0;
-    space->point[made] = (pir_space_point){.exact = PIR_SPACE_NONE, .kind = kind};
-    return space->point_count++;
+    space->point[made] = (pir_space_point){.exact = PIR_SPACE_NONE, .kind = kind, .frame = space->frame};
+    if (space->record)
+        pir_record_point(space, made);
+    return made;
 }
 
 uint32_t pir_space_add_point(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_srcptr z, mpz_srcptr w) {
@@ -228,17 +245,20 @@ uint32_t pir_space_add_point(pir_space *space, mpz_srcptr x, mpz_srcptr y, mpz_s
     return made;
 }
 
+static void set_sum(const pir_space *space, pir_space_point *sum) {
+    const pir_space_point *p = &space->point[sum->of[0]], *q = &space->point[sum->of[1]];
+    for (int k = 0; k < 3; k++)
+        sum->x[k] = p->x[k] + q->x[k];
+    sum->err = p->err + q->err + 0x1p-51;
+}
+
 uint32_t pir_space_add_sum(pir_space *space, uint32_t a, uint32_t b) {
     const uint32_t made = new_point(space, PIR_POINT_SUM);
     if (space->status != PIR_OK)
         return 0;
-    const pir_space_point *p = &space->point[a], *q = &space->point[b];
-    pir_space_point *sum = &space->point[made];
-    sum->of[0] = a;
-    sum->of[1] = b;
-    for (int k = 0; k < 3; k++)
-        sum->x[k] = p->x[k] + q->x[k];
-    sum->err = p->err + q->err + 0x1p-51;
+    space->point[made].of[0] = a;
+    space->point[made].of[1] = b;
+    set_sum(space, &space->point[made]);
     return made;
 }
 
@@ -274,17 +294,21 @@ static double solve_meet(const pir_space_plane *const plane[3], double x[3]) {
     return meet_error(plane, x, det);
 }
 
+static void set_meet(pir_space *space, uint32_t point) {
+    pir_space_point *p = &space->point[point];
+    const pir_space_plane *const plane[3] = {&space->plane[p->of[0]], &space->plane[p->of[1]], &space->plane[p->of[2]]};
+    p->err = solve_meet(plane, p->x);
+    if (!(p->err <= PIR_SPACE_ERROR))
+        pir_space_exact_point(space, point);
+}
+
 uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h) {
     const uint32_t made = new_point(space, PIR_POINT_MEET), of[3] = {f, g, h};
     if (space->status != PIR_OK)
         return 0;
-    const pir_space_plane *const plane[3] = {&space->plane[f], &space->plane[g], &space->plane[h]};
-    pir_space_point *p = &space->point[made];
     for (int k = 0; k < 3; k++)
-        p->of[k] = of[k];
-    p->err = solve_meet(plane, p->x);
-    if (!(p->err <= PIR_SPACE_ERROR))
-        pir_space_exact_point(space, made);
+        space->point[made].of[k] = of[k];
+    set_meet(space, made);
     return made;
 }
 
@@ -295,6 +319,7 @@ static double set_normal(const pir_space *space, pir_space_plane *p) {
     if (p->direction[1] == PIR_SPACE_NONE) {
         for (int k = 0; k < 3; k++)
             p->n[k] = sign * a[k];
+        p->length = 1;
         return 0x1p-47;
     }
     const double *b = space->direction[p->direction[1]].n;
@@ -302,28 +327,113 @@ static double set_normal(const pir_space *space, pir_space_plane *p) {
     const double length = sqrt(cross[0] * cross[0] + cross[1] * cross[1] + cross[2] * cross[2]);
     for (int k = 0; k < 3; k++)
         p->n[k] = sign * cross[k] / length;
+    p->length = length;
     return length > 0 ? 0x1p-45 / length : (double)INFINITY;
 }
 
-uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]) {
-    const uint32_t made = space->plane_count;
-    if (!pir_space_grow(space, (void **)&space->plane, &space->plane_room, made, sizeof *space->plane))
-        return 0;
-    pir_space_plane p = {.exact = PIR_SPACE_NONE,
-                         .direction = {direction[0], direction[1]},
-                         .point = {point[0], point[1]},
-                         .turned = turned};
-    const double off = set_normal(space, &p);
-    double x[3], err = 0;
+/* The doubles of a plane, whose directions and points are there; whether they do. */
+static bool set_plane(pir_space *space, uint32_t plane) {
+    pir_space_plane *p = &space->plane[plane];
+    const double off = set_normal(space, p);
+    const pir_space_point *a = &space->point[p->point[0]];
+    const pir_space_point *b = p->point[1] == PIR_SPACE_NONE ? NULL : &space->point[p->point[1]];
+    double x[3];
     for (int k = 0; k < 3; k++)
-        x[k] = space->point[point[0]].x[k] + (point[1] == PIR_SPACE_NONE ? 0 : space->point[point[1]].x[k]);
-    err = space->point[point[0]].err + (point[1] == PIR_SPACE_NONE ? 0 : space->point[point[1]].err);
-    p.d = p.n[0] * x[0] + p.n[1] * x[1] + p.n[2] * x[2];
+        x[k] = a->x[k] + (b ? b->x[k] : 0);
+    p->d = p->n[0] * x[0] + p->n[1] * x[1] + p->n[2] * x[2];
     // the normal is wrong at x and at the point itself, each within √3 of the middle
-    p.err = 4 * off + err + 0x1p-48;
-    space->plane[made] = p;
-    space->plane_count++;
-    if (!(p.err <= PIR_SPACE_ERROR))
+    p->err = 4 * off + a->err + (b ? b->err : 0) + 0x1p-48;
+    p->frame = space->frame;
+    return p->err <= PIR_SPACE_ERROR;
+}
+
+static uint32_t take_plane(pir_space *space) {
+    if (space->reuses && space->spare_planes.count > 0)
+        return space->spare_planes.number[--space->spare_planes.count];
+    if (!pir_space_grow(space, (void **)&space->plane, &space->plane_room, space->plane_count, sizeof *space->plane))
+        return 0;
+    return space->plane_count++;
+}
+
+uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]) {
+    const uint32_t made = take_plane(space);
+    if (space->status != PIR_OK)
+        return 0;
+    space->plane[made] = (pir_space_plane){.exact = PIR_SPACE_NONE,
+                                           .direction = {direction[0], direction[1]},
+                                           .point = {point[0], point[1]},
+                                           .turned = turned};
+    if (!set_plane(space, made))
         pir_space_exact_plane(space, made);
+    if (space->record)
+        pir_record_plane(space, made);
     return made;
+}
+
+void pir_space_renew_point(pir_space *space, uint32_t point) {
+    pir_space_point *p = &space->point[point];
+    if (p->frame == space->frame || (p->kind != PIR_POINT_SUM && p->kind != PIR_POINT_MEET))
+        return;
+    p->frame = space->frame;
+    if (p->kind == PIR_POINT_SUM) {
+        set_sum(space, p);
+        return;
+    }
+    for (int k = 0; k < 3; k++)
+        pir_space_renew_plane(space, p->of[k]);
+    set_meet(space, point);
+}
+
+/* Makes the doubles of the points that a plane is made of, which are sums of vertices. */
+static void renew_points_of(pir_space *space, const pir_space_plane *f) {
+    for (int k = 0; k < 2; k++)
+        if (f->point[k] != PIR_SPACE_NONE)
+            pir_space_renew_point(space, f->point[k]);
+}
+
+void pir_space_renew_plane(pir_space *space, uint32_t plane) {
+    pir_space_plane *f = &space->plane[plane];
+    if (f->frame == space->frame)
+        return;
+    renew_points_of(space, f);
+    if (!set_plane(space, plane))
+        pir_space_exact_plane(space, plane);
+}
+
+bool pir_space_look_at_plane(pir_space *space, uint32_t plane) {
+    pir_space_plane *f = &space->plane[plane];
+    if (f->frame == space->frame)
+        return true;
+    renew_points_of(space, f);
+    const bool done = set_plane(space, plane);
+    f->frame = done ? space->frame : 0;
+    return done;
+}
+
+bool pir_space_look_at_point(pir_space *space, uint32_t point) {
+    pir_space_point *p = &space->point[point];
+    if (p->frame == space->frame || p->kind != PIR_POINT_MEET) {
+        pir_space_renew_point(space, point);
+        return true;
+    }
+    for (int k = 0; k < 3; k++)
+        if (!pir_space_look_at_plane(space, p->of[k]))
+            return false;
+    const pir_space_plane *const plane[3] = {&space->plane[p->of[0]], &space->plane[p->of[1]], &space->plane[p->of[2]]};
+    p->err = solve_meet(plane, p->x);
+    p->frame = p->err <= PIR_SPACE_ERROR ? space->frame : 0;
+    return p->frame == space->frame;
+}
+
+void pir_space_note_side(pir_space *space, uint32_t plane, uint32_t point, int sign) {
+    pir_record_side(space, plane, point, sign);
+}
+
+void pir_space_begin_frame(pir_space *space) {
+    pir_space_drop_exact(space);
+    space->frame++;
+    for (uint32_t p = 0; p < space->point_count; p++)
+        space->point[p].exact = PIR_SPACE_NONE;
+    for (uint32_t f = 0; f < space->plane_count; f++)
+        space->plane[f].exact = PIR_SPACE_NONE;
 }

@@ -55,6 +55,7 @@ typedef struct pir_space_point {
     uint32_t exact; /* X, Y, Z, W > 0 in lowest terms, or none yet */
     uint32_t of[3]; /* two points, or three planes, or what it is at rest */
     enum pir_point_kind kind;
+    uint32_t frame; /* at which its doubles were made */
 } pir_space_point;
 
 typedef struct pir_space_plane {
@@ -62,13 +63,26 @@ typedef struct pir_space_plane {
     uint32_t exact;        /* a, b, c, d of a·x + b·y + c·z = d in lowest terms, or none yet */
     uint32_t direction[2]; /* the second may be none */
     uint32_t point[2];     /* likewise */
+    double length;         /* of the product of its directions; 1 of one alone */
     bool turned;           /* the normal is the reverse of what the directions say */
+    uint32_t frame;        /* as of a point */
 } pir_space_plane;
 
 typedef struct pir_space_rest pir_space_rest;
+typedef struct pir_side_record pir_side_record;
+
+/* Numbers that are no longer in use. */
+typedef struct pir_space_spare {
+    uint32_t *number, count, room;
+} pir_space_spare;
 
 typedef struct pir_space {
     pir_space_rest *rest;    /* of what turns, or NULL */
+    pir_side_record *record; /* of the job at hand, or NULL (record.h) */
+    uint32_t axis[3];        /* directions of the axes */
+    bool reuses;             /* whether numbers that are spare are taken first */
+    uint32_t frame;          /* what is of another one has the doubles of an earlier rotation */
+    pir_space_spare spare_points, spare_planes;
     pir_allocator allocator; /* gives what the limit allows, from the caller's */
     pir_allocator given;
     pir_status status;
@@ -114,7 +128,10 @@ void pir_space_fault(pir_space *space);
 
 /* Grows *array, of *room elements, to hold one more than `count`, within the limit. False once `status` is a failure.
  * */
-bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size);
+bool pir_space_widen(pir_space *space, void **array, uint32_t *room, size_t count, size_t size);
+static inline bool pir_space_grow(pir_space *space, void **array, uint32_t *room, size_t count, size_t size) {
+    return (count < *room && space->status == PIR_OK) || pir_space_widen(space, array, room, count, size);
+}
 
 /* Frees an array that has grown. */
 void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size);
@@ -146,6 +163,18 @@ uint32_t pir_space_add_meet(pir_space *space, uint32_t f, uint32_t g, uint32_t h
 /* The plane with normal ±a, or ±(a × b) unless b is none, through point p, or p + q unless q is none. */
 uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool turned, const uint32_t point[2]);
 
+/* Makes the doubles of a point or a plane of an earlier frame anew, and of what it is made of. */
+void pir_space_renew_point(pir_space *space, uint32_t point);
+void pir_space_renew_plane(pir_space *space, uint32_t plane);
+
+/* Likewise by doubles alone, of what need not be there at this rotation: planes that have come to be parallel, or meet
+ * far away. False where doubles do not do, or it is not there. */
+bool pir_space_look_at_point(pir_space *space, uint32_t point);
+bool pir_space_look_at_plane(pir_space *space, uint32_t plane);
+
+/* Forgets the exact numbers of all that is in the space, and begins a frame. */
+void pir_space_begin_frame(pir_space *space);
+
 /* A half-space: a plane's, and whether it is turned. Its points have side ≤ 0. */
 static inline uint32_t pir_half(uint32_t plane, bool turned) {
     return plane << 1 | turned;
@@ -154,18 +183,19 @@ static inline uint32_t pir_half(uint32_t plane, bool turned) {
 /* The side of a plane on which a point lies, by exact numbers. */
 int pir_space_exact_side(pir_space *space, uint32_t plane, uint32_t point);
 
+/* Notes a side in the record of the job at hand. */
+void pir_space_note_side(pir_space *space, uint32_t plane, uint32_t point, int sign);
+
 /* The side of a half-space on which a point lies: 1 above, −1 below, 0 in its plane. */
 static inline int pir_space_side(pir_space *space, uint32_t half, uint32_t point) {
     const pir_space_plane *f = &space->plane[half >> 1];
     const pir_space_point *p = &space->point[point];
     const double s = f->n[0] * p->x[0] + f->n[1] * p->x[1] + f->n[2] * p->x[2] - f->d;
     const double bound = f->err + p->err + 0x1p-48;
-    const int turn = half & 1 ? -1 : 1;
-    if (s > bound)
-        return turn;
-    if (s < -bound)
-        return -turn;
-    return turn * pir_space_exact_side(space, half >> 1, point);
+    const int sign = s > bound ? 1 : s < -bound ? -1 : pir_space_exact_side(space, half >> 1, point);
+    if (space->record)
+        pir_space_note_side(space, half >> 1, point, sign);
+    return half & 1 ? -sign : sign;
 }
 
 /* The sign of det(a, b, c) and of a · b for directions. */

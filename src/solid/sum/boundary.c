@@ -58,7 +58,7 @@ static void imprint(pir_sum_boundary *b) {
     pir_union_outline_imprint(&b->outline, b->group, b->group_count);
 }
 
-/* The outline of what is left, plane by plane, and the facets that it goes round. */
+/* The outline of what is left, plane by plane. */
 static void outline_planes(pir_sum_boundary *b) {
     pir_space *space = b->space;
     pir_remains *remains = &b->remains;
@@ -81,18 +81,22 @@ static void outline_planes(pir_sum_boundary *b) {
             ;
         outline_group(b, b->order + i, end - i);
     }
-    pir_space_begin_stage(space, "cutting edges", 0);
-    if (remains->open)
+}
+
+/* Cuts the outline, and traces the facets that it goes round. */
+static void glue(pir_sum_boundary *b) {
+    pir_space_begin_stage(b->space, "cutting edges", 0);
+    if (b->remains.open)
         add_tight(b);
     pir_union_outline_cut(&b->outline);
     b->edges = b->outline.run_count / 2;
-    if (remains->open) {
+    if (b->remains.open) {
         imprint(b);
         b->edges = pir_union_outline_edges(&b->outline);
     }
-    pir_space_begin_stage(space, "tracing facets", 0);
+    pir_space_begin_stage(b->space, "tracing facets", 0);
     pir_loops_trace(&b->loops, &b->outline);
-    if (space->status == PIR_OK)
+    if (b->space->status == PIR_OK)
         pir_loops_check_closed(&b->loops);
 }
 
@@ -131,8 +135,30 @@ void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body
                            bool open) {
     *boundary = (pir_sum_boundary){.space = body[0].space};
     pir_remains_make(&boundary->remains, body, convexes, open);
+    boundary->candidates = boundary->remains.candidates;
+    boundary->survivors = boundary->remains.survivor_count;
     if (boundary->space->status == PIR_OK)
         outline_planes(boundary);
+    if (boundary->space->status == PIR_OK)
+        glue(boundary);
+    if (boundary->space->status == PIR_OK)
+        name_vertices(boundary);
+}
+
+void pir_sum_boundary_begin(pir_sum_boundary *boundary, pir_space *space) {
+    *boundary = (pir_sum_boundary){.space = space};
+    pir_space_begin_stage(space, "uniting what bounds the sum", 0);
+    pir_union_outline_init(&boundary->outline, space);
+}
+
+void pir_sum_boundary_add(pir_sum_boundary *boundary, uint32_t half, const pir_segment_list *edge) {
+    if (edge->count > 0)
+        pir_union_outline_add(&boundary->outline, boundary->group_count++, half, edge->segment, edge->count);
+}
+
+void pir_sum_boundary_glue(pir_sum_boundary *boundary) {
+    if (boundary->space->status == PIR_OK)
+        glue(boundary);
     if (boundary->space->status == PIR_OK)
         name_vertices(boundary);
 }

@@ -19,6 +19,7 @@ typedef struct pir_sum_boundary {
     uint32_t first_loose; /* fragments of boundary facets */
     pir_touching points;
     uint32_t edges, segments;
+    uint64_t candidates, survivors;
     uint32_t *number, number_count;              /* per point of the space its vertex, or none */
     uint32_t *vertex, vertex_count, vertex_room; /* points, as facets, then segments, then points name them */
 } pir_sum_boundary;
@@ -26,6 +27,11 @@ typedef struct pir_sum_boundary {
 /* The status is the space's. What is there after a failure is to be finished. */
 void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body[2], pir_convexes convexes[2],
                            bool open);
+/* Glues the boundary of a sum from what bounds it in each of its planes, in order: pir_sum_boundary_begin, the planes,
+ * then pir_sum_boundary_glue. */
+void pir_sum_boundary_begin(pir_sum_boundary *boundary, pir_space *space);
+void pir_sum_boundary_add(pir_sum_boundary *boundary, uint32_t half, const pir_segment_list *edge);
+void pir_sum_boundary_glue(pir_sum_boundary *boundary);
 void pir_sum_boundary_finish(pir_sum_boundary *boundary);
 
 #endif

@@ -71,7 +71,7 @@ static void add_sum(struct candidate_maker *m, uint32_t half, uint32_t n, const 
         }
     }
     const uint32_t polygon = pir_polygons_add(m->polygons, half, m->point, m->direction, NULL, m->count);
-    if (m->space->status == PIR_OK)
+    if (m->space->status == PIR_OK && m->take)
         m->take(m->context, polygon);
 }
 
@@ -200,7 +200,7 @@ static void meet_edge_pair(struct candidate_maker *m, const pir_shell_body_edge 
         return;
     const uint32_t polygon =
         pir_polygons_add(m->polygons, half, m->point, m->direction, (const bool[]){false, false, true, true}, m->count);
-    if (space->status == PIR_OK)
+    if (space->status == PIR_OK && m->take)
         m->take(m->context, polygon);
 }
 
@@ -259,6 +259,21 @@ static void make(struct candidate_maker *m, bool both) {
     if (both)
         meet_edge_pairs(m);
     finish(m);
+}
+
+void pir_candidates_at_vertex(const pir_shell_body *a, const pir_shell_body *b, uint32_t facet, uint32_t vertex,
+                              pir_polygons *polygons) {
+    struct candidate_maker m = {.space = a->space, .a = a, .b = b, .polygons = polygons};
+    const uint32_t point = b->first_point + vertex;
+    add_parts(&m, facet, &(struct flat_face){&point, NULL, 1});
+    finish(&m);
+}
+
+void pir_candidate_of_edges(const pir_shell_body *p, const pir_shell_body *q, uint32_t e, uint32_t g,
+                            pir_polygons *polygons) {
+    struct candidate_maker m = {.space = p->space, .a = p, .b = q, .polygons = polygons};
+    meet_edge_pair(&m, &p->edge[e], &q->edge[g]);
+    finish(&m);
 }
 
 void pir_candidates(const pir_shell_body *p, const pir_shell_body *q, pir_polygons *polygons, pir_candidate_taker *take,

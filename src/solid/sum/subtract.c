@@ -6,6 +6,8 @@
  */
 #include "solid/sum/subtract.h"
 
+#include "solid/space/record.h"
+
 void pir_fragments_finish(pir_fragments *fragments, pir_space *space) {
     pir_space_shrink(space, fragments->polygon, fragments->room, sizeof *fragments->polygon);
     pir_space_shrink(space, fragments->spare, fragments->spare_room, sizeof *fragments->spare);
@@ -33,14 +35,16 @@ static bool is_above(const pir_polygons *polygons, pir_polygon p, uint32_t half)
 bool pir_polygon_is_apart(const pir_polygons *polygons, uint32_t polygon, const uint32_t *half, uint32_t count,
                           uint32_t *apart) {
     const pir_polygon p = polygons->polygon[polygon];
-    if (*apart < count && is_above(polygons, p, half[*apart]))
-        return true;
-    for (uint32_t h = 0; h < count; h++)
-        if (is_above(polygons, p, half[h])) {
-            *apart = h;
-            return true;
-        }
-    return false;
+    uint32_t h = *apart;
+    if (h >= count || !is_above(polygons, p, half[h]))
+        for (h = 0; h < count && !is_above(polygons, p, half[h]); h++)
+            ;
+    if (h == count)
+        return false;
+    if (polygons->space->record)
+        pir_record_parted(polygons, polygon, half[h]);
+    *apart = h;
+    return true;
 }
 
 /* The sign of the scalar product of two normals that are parallel, as half-spaces. */
@@ -58,8 +62,11 @@ static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, cons
     uint32_t cutters = 0;
     for (uint32_t h = 0; h < count; h++) {
         const pir_space_plane *f = &polygons->space->plane[half[h] >> 1];
-        if (pir_ball_side(&ball, f, pir_ball_depth(&ball, f)) * (half[h] & 1 ? -1 : 1) < 0)
+        if (pir_ball_side(&ball, f, pir_ball_depth(&ball, f)) * (half[h] & 1 ? -1 : 1) < 0) {
+            if (polygons->space->record)
+                pir_record_polygon(polygons, fragment, half[h], -1);
             continue;
+        }
         const unsigned sides = pir_polygons_sides(polygons, fragment, half[h]);
         if (sides == 2 || (sides == 0 && faces_same_way(polygons->space, polygons->polygon[fragment].half, half[h])))
             return APART;
@@ -79,6 +86,8 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
         return;
     if (find_cutters(polygons, rest, half, count, fragments->spare, &cutters) == APART)
         return;
+    if (space->record)
+        pir_record_met(polygons, rest, space->record->set);
     const uint32_t before = fragments->count, polygon_count = polygons->count;
     for (uint32_t h = 0; h < cutters && space->status == PIR_OK; h++) {
         const unsigned sides = pir_polygons_sides(polygons, rest, fragments->spare[h]);

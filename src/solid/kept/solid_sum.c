@@ -4,9 +4,10 @@
  * each rotation they are turned (space/rest.h) and the boundary is made of them (boundary.h).
  *
  * Invariant: `rotation` and `scale` are those of the last call that succeeded. `made` says whether the boundary is
- * there for them; after a call that failed it is not, and whoever needs it next makes it.
+ * there for them; after an update it is not, and after a call that failed neither is what was kept: whoever needs the
+ * boundary next glues it of what is kept, or makes it.
  */
-#include "solid/sum/solid_sum.h"
+#include "solid/kept/solid_sum.h"
 
 #include <math.h>
 
@@ -85,25 +86,131 @@ static pir_status prepare(pir_solid_sum *sum) {
 
 /* --- at a rotation --- */
 
-/* Makes the boundary for a rotation and scales; it is gone when that fails. */
-static pir_status make(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
+/* Turns that are larger than this are rebuilt, unless the caller wants an update. */
+#define TURN_MOST .005
+
+/* An update that has clipped more than this part of all did not pay. */
+#define CLIPPED_MOST .2
+
+/* How many rotations are rebuilt after one at the least and at the most. */
+#define REST_LEAST 8
+#define REST_MOST  256
+
+static void turn(pir_solid_sum *sum, const double scale[2], bool keep) {
+    pir_rest_turn(&sum->rest, &sum->turned, scale, keep);
+    for (int k = 0; k < 2; k++)
+        pir_convexes_set_boxes(&sum->convexes[k]);
+}
+
+/* Makes the boundary of what is kept; false where planes of facets are one. */
+static bool glue(pir_solid_sum *sum) {
+    pir_kept_sum *kept = &sum->kept;
+    if (!pir_kept_sum_renew(kept))
+        return false;
+    pir_sum_boundary_begin(&sum->boundary, kept->space);
+    for (uint32_t i = 0; i < kept->count && kept->space->status == PIR_OK; i++) {
+        const pir_plane_facet *facet = kept->facet[kept->order[i]];
+        pir_sum_boundary_add(&sum->boundary, facet->half, &facet->edge);
+        sum->boundary.candidates += facet->candidates.count;
+        sum->boundary.survivors += facet->survivors;
+    }
+    pir_sum_boundary_glue(&sum->boundary);
+    return true;
+}
+
+/* Makes the boundary from the pieces, at the rotation that the space has been given. */
+static void rebuild(pir_solid_sum *sum, const double scale[2]) {
+    pir_kept_sum_finish(&sum->kept);
+    turn(sum, scale, false);
+    pir_sum_boundary_make(&sum->boundary, sum->operands.body, sum->convexes, sum->options.open != 0);
+    sum->clipped = sum->boundary.candidates;
+    sum->made = sum->operands.space.status == PIR_OK;
+}
+
+/* Keeps a sum from now on; false where there is nothing to keep. */
+static bool begin_to_keep(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
+    pir_kept_sum_finish(&sum->kept);
+    turn(sum, scale, false);
+    if (pir_kept_sum_make(&sum->kept, sum->operands.body, sum->convexes, rotation))
+        return true;
+    pir_kept_sum_finish(&sum->kept);
+    return false;
+}
+
+/* Brings what is kept to a rotation; likewise. */
+static bool update(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
+    pir_kept_sum *kept = &sum->kept;
+    if (!kept->valid)
+        return begin_to_keep(sum, rotation, scale);
+    pir_kept_sum_begin(kept);
+    turn(sum, scale, true);
+    return pir_kept_sum_update(kept, rotation);
+}
+
+/* Whether an update is to be tried. */
+static bool may_update(pir_solid_sum *sum, pir_quat rotation, const double scale[2], pir_solid_method method) {
+    if (method == PIR_SOLID_REBUILD || sum->options.open || scale[0] != sum->scale[0] || scale[1] != sum->scale[1])
+        return false;
+    if (method == PIR_SOLID_UPDATE)
+        return true;
+    if (sum->rests > 0) {
+        sum->rests--;
+        return false;
+    }
+    return pir_angle_between(pir_quat_of_length_1(sum->rotation), pir_quat_of_length_1(rotation)) <= TURN_MOST;
+}
+
+/* Learns whether an update has paid: where much was clipped, or nothing could be kept, the next are rebuilds. */
+static void learn(pir_solid_sum *sum, bool was_kept, bool done) {
+    if (done && (!was_kept || (double)sum->clipped <= CLIPPED_MOST * sum->kept.count)) {
+        sum->pause = was_kept ? REST_LEAST : sum->pause;
+        return;
+    }
+    sum->rests = sum->pause < REST_LEAST ? REST_LEAST : sum->pause;
+    sum->pause = 2 * sum->rests < REST_MOST ? 2 * sum->rests : REST_MOST;
+}
+
+static pir_status make(pir_solid_sum *sum, pir_quat rotation, const double scale[2], pir_solid_method method) {
     pir_space *space = &sum->operands.space;
     pir_rotation turned = {.integers = &sum->integers};
     pir_status status = pir_rotation_set(&turned, rotation);
     if (status != PIR_OK)
         return status;
+    const bool updates = may_update(sum, rotation, scale, method), was_kept = sum->kept.valid;
+    bool done = false;
     sum->made = false;
     sum->turned = turned;
     space->status = PIR_OK;
     space->refused = false;
     pir_sum_boundary_finish(&sum->boundary);
-    pir_rest_turn(&sum->rest, &sum->turned, scale);
-    for (int k = 0; k < 2; k++)
-        pir_convexes_set_boxes(&sum->convexes[k]);
-    pir_sum_boundary_make(&sum->boundary, sum->operands.body, sum->convexes, sum->options.open != 0);
-    status = pir_space_outcome(space, space->status, "sum", sum->options.report);
-    sum->made = status == PIR_OK;
-    return status;
+    if (updates) {
+        done = update(sum, rotation, scale);
+        sum->clipped = done ? sum->kept.maker.made : 0;
+        learn(sum, was_kept, done);
+    }
+    if (!done && space->status == PIR_OK)
+        rebuild(sum, scale);
+    if (space->status != PIR_OK)
+        pir_kept_sum_finish(&sum->kept);
+    return pir_space_outcome(space, space->status, "sum", sum->options.report);
+}
+
+/* Sees to it that the boundary is there. */
+static pir_status ensure(pir_solid_sum *sum) {
+    pir_space *space = &sum->operands.space;
+    if (sum->made)
+        return PIR_OK;
+    if (!sum->kept.valid)
+        return make(sum, sum->rotation, sum->scale, PIR_SOLID_REBUILD);
+    pir_sum_boundary_finish(&sum->boundary);
+    pir_kept_sum_begin(&sum->kept);
+    if (glue(sum))
+        sum->made = space->status == PIR_OK;
+    else if (space->status == PIR_OK)
+        rebuild(sum, sum->scale);
+    if (space->status != PIR_OK)
+        pir_kept_sum_finish(&sum->kept);
+    return pir_space_outcome(space, space->status, "sum", sum->options.report);
 }
 
 static pir_solid_sum_info describe(const pir_solid_sum *sum) {
@@ -117,24 +224,26 @@ static pir_solid_sum_info describe(const pir_solid_sum *sum) {
                                 .points = b->points.point_count,
                                 .pieces_p = sum->convexes[0].count,
                                 .pieces_q = sum->convexes[1].count,
-                                .candidates = b->remains.candidates,
-                                .survivors = b->remains.survivor_count};
+                                .candidates = b->candidates,
+                                .survivors = b->survivors,
+                                .clipped = sum->clipped};
 }
 
-static pir_status change(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
-    const pir_status status = make(sum, rotation, scale);
+static pir_status change(pir_solid_sum *sum, pir_quat rotation, const double scale[2], pir_solid_method method) {
+    const pir_status status = make(sum, rotation, scale, method);
     if (status != PIR_OK)
         return status;
     sum->rotation = rotation;
     sum->scale[0] = scale[0];
     sum->scale[1] = scale[1];
     sum->generation++;
-    sum->info = describe(sum);
     return PIR_OK;
 }
 
-pir_status pir_solid_sum_rotate(pir_solid_sum *sum, pir_quat rotation) {
-    return sum ? change(sum, rotation, sum->scale) : PIR_ERR_ARGUMENT;
+pir_status pir_solid_sum_rotate(pir_solid_sum *sum, pir_quat rotation, pir_solid_method method) {
+    if (!sum || (method != PIR_SOLID_AUTO && method != PIR_SOLID_UPDATE && method != PIR_SOLID_REBUILD))
+        return PIR_ERR_ARGUMENT;
+    return change(sum, rotation, sum->scale, method);
 }
 
 pir_status pir_solid_sum_set_scale(pir_solid_sum *sum, pir_operand operand, double scale) {
@@ -146,7 +255,7 @@ pir_status pir_solid_sum_set_scale(pir_solid_sum *sum, pir_operand operand, doub
         return PIR_ERR_ARGUMENT;
     const double scales[2] = {operand == PIR_OPERAND_P ? scale : sum->scale[0],
                               operand == PIR_OPERAND_Q ? scale : sum->scale[1]};
-    return change(sum, sum->rotation, scales);
+    return change(sum, sum->rotation, scales, PIR_SOLID_REBUILD);
 }
 
 /* --- the object --- */
@@ -168,7 +277,7 @@ static pir_status create(const pir_solid *const solid[2], const pir_solid_sum_op
         status = pir_space_outcome(&sum->operands.space, status, "sum", options->report);
     }
     if (status == PIR_OK)
-        status = change(sum, rotation, scale);
+        status = change(sum, rotation, scale, PIR_SOLID_REBUILD);
     sum->generation = 0;
     if (status == PIR_OK)
         *ret_sum = sum;
@@ -199,6 +308,7 @@ void pir_solid_sum_destroy(pir_solid_sum *sum) {
         return;
     const pir_allocator allocator = sum->allocator;
     pir_sum_boundary_finish(&sum->boundary);
+    pir_kept_sum_finish(&sum->kept);
     pir_rest_finish(&sum->rest);
     for (int k = 0; k < 2; k++) {
         pir_convexes_finish(&sum->convexes[k]);
@@ -216,14 +326,19 @@ uint64_t pir_solid_sum_generation(const pir_solid_sum *sum) {
     return sum->generation;
 }
 
-void pir_solid_sum_describe(const pir_solid_sum *sum, pir_solid_sum_info *ret_info) {
-    *ret_info = sum->info;
+pir_status pir_solid_sum_describe(pir_solid_sum *sum, pir_solid_sum_info *ret_info) {
+    if (!sum || !ret_info)
+        return PIR_ERR_ARGUMENT;
+    const pir_status status = ensure(sum);
+    if (status == PIR_OK)
+        *ret_info = describe(sum);
+    return status;
 }
 
 pir_status pir_solid_sum_mesh(pir_solid_sum *sum, pir_precision precision, pir_mesh **ret_mesh) {
     if (!sum || !ret_mesh || (precision != PIR_DOUBLE && precision != PIR_EXACT))
         return PIR_ERR_ARGUMENT;
-    const pir_status status = sum->made ? PIR_OK : make(sum, sum->rotation, sum->scale);
+    const pir_status status = ensure(sum);
     return status == PIR_OK ? pir_solid_mesh_make(&sum->operands, &sum->boundary, precision == PIR_EXACT, ret_mesh)
                             : status;
 }

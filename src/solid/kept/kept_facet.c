@@ -1,0 +1,440 @@
+/* SPDX-License-Identifier: MIT */
+/* See kept_facet.h: the candidates of a facet, and the pairs near them. */
+#include "solid/kept/kept_facet.h"
+
+#include <math.h>
+
+#include "solid/space/identity.h"
+#include "solid/space/places.h"
+#include "solid/space/rest.h"
+#include "solid/sum/convolution.h"
+
+/* Far planes are sorted out once in so many steps. */
+#define HORIZON_STEPS 8
+
+void pir_facet_maker_finish(pir_facet_maker *maker) {
+    pir_space *space = maker->space;
+    if (!space)
+        return;
+    pir_record_finish(&maker->record, space);
+    pir_polygons_finish(&maker->polygons);
+    pir_fragments_finish(&maker->fragments, space);
+    pir_fragments_finish(&maker->kept, space);
+    pir_space_shrink(space, maker->half, maker->half_room, sizeof *maker->half);
+    pir_space_shrink(space, maker->order, maker->order_room, sizeof *maker->order);
+    pir_space_shrink(space, maker->work, maker->work_room, sizeof *maker->work);
+    *maker = (pir_facet_maker){0};
+}
+
+void pir_give_back(pir_space *space, pir_space_spare *spare, pir_number_list *list) {
+    for (uint32_t i = 0; i < list->count; i++)
+        if (pir_space_grow(space, (void **)&spare->number, &spare->room, spare->count, sizeof *spare->number))
+            spare->number[spare->count++] = list->number[i];
+    list->count = 0;
+}
+
+/* Forgets all but the keys. */
+static void clear(pir_facet_maker *maker, pir_plane_facet *facet) {
+    pir_kept_facet_unclip(maker, facet);
+    pir_give_back(maker->space, &maker->space->spare_points, &facet->points);
+    pir_give_back(maker->space, &maker->space->spare_planes, &facet->planes);
+    pir_polygons_truncate(&facet->candidates, 0);
+    facet->near_count = facet->far_count = facet->far_soon = facet->cut_count = 0;
+    facet->near_until = (double)INFINITY;
+    facet->horizon = 0;
+    facet->based = false;
+}
+
+void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
+    pir_space *space = maker->space;
+    clear(maker, facet);
+    pir_polygons_finish(&facet->candidates);
+    pir_space_shrink(space, facet->key, facet->key_room, sizeof *facet->key);
+    pir_space_shrink(space, facet->points.number, facet->points.room, sizeof(uint32_t));
+    pir_space_shrink(space, facet->planes.number, facet->planes.room, sizeof(uint32_t));
+    pir_space_shrink(space, facet->made.number, facet->made.room, sizeof(uint32_t));
+    pir_space_shrink(space, facet->corners.number, facet->corners.room, sizeof(uint32_t));
+    pir_space_shrink(space, facet->near, facet->near_room, sizeof *facet->near);
+    pir_space_shrink(space, facet->far, facet->far_room, sizeof *facet->far);
+    pir_space_shrink(space, facet->far_until, facet->far_until_room, sizeof *facet->far_until);
+    pir_space_shrink(space, facet->cold_until, facet->cold_until_room, sizeof *facet->cold_until);
+    pir_space_shrink(space, facet->cut, facet->cut_room, sizeof *facet->cut);
+    pir_space_shrink(space, facet->hot, facet->hot_room, sizeof *facet->hot);
+    pir_space_shrink(space, facet->cold, facet->cold_room, sizeof *facet->cold);
+    pir_space_shrink(space, facet->parted, facet->parted_room, sizeof *facet->parted);
+    pir_space_shrink(space, facet->met, facet->met_room, sizeof *facet->met);
+    pir_space_shrink(space, facet->edge.segment, facet->edge.room, sizeof *facet->edge.segment);
+}
+
+/* --- how long a side stands --- */
+
+static uint32_t body_of(const pir_space *space, uint32_t direction) {
+    return space->rest->directions.item[space->direction[direction].rest].body;
+}
+
+double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance) {
+    const pir_space *space = maker->space;
+    const pir_space_plane *f = &space->plane[plane];
+    const uint32_t first = body_of(space, f->direction[0]);
+    if (!(distance > 0))
+        return maker->turn;
+    if (f->direction[1] == PIR_SPACE_NONE || body_of(space, f->direction[1]) == first)
+        return maker->turn + distance / maker->diameter[1 - first] * (1 - 0x1p-40);
+    return maker->turn + distance * f->length / (maker->diameter[0] + maker->diameter[1]) * (1 - 0x1p-40);
+}
+
+double pir_sure_distance(const pir_space *space, uint32_t plane, uint32_t point, int side) {
+    const pir_space_plane *f = &space->plane[plane];
+    const pir_space_point *p = &space->point[point];
+    const double s = f->n[0] * p->x[0] + f->n[1] * p->x[1] + f->n[2] * p->x[2] - f->d;
+    return side * s - (f->err + p->err + 0x1p-47);
+}
+
+/* --- the candidates --- */
+
+static void make_candidate(pir_facet_maker *maker, pir_polygons *candidates, pir_candidate_key key) {
+    const pir_shell_body *p = &maker->body[0], *q = &maker->body[1];
+    if (key.kind == PIR_TWO_EDGES)
+        pir_candidate_of_edges(p, q, key.a, key.b, candidates);
+    else if (key.kind == PIR_FACET_OF_P)
+        pir_candidates_at_vertex(p, q, key.a, key.b, candidates);
+    else
+        pir_candidates_at_vertex(q, p, key.a, key.b, candidates);
+}
+
+static void make_candidates(pir_facet_maker *maker, pir_plane_facet *facet) {
+    pir_space *space = maker->space;
+    pir_polygons *candidates = &facet->candidates;
+    if (!candidates->space)
+        pir_polygons_init(candidates, space);
+    pir_record_begin(&maker->record, space);
+    for (uint32_t i = 0; i < facet->key_count && space->status == PIR_OK; i++) {
+        const uint32_t before = candidates->count;
+        make_candidate(maker, candidates, facet->key[i]);
+        if (candidates->count == before)
+            pir_space_fault(space);
+    }
+    pir_record_end(space);
+    for (uint32_t i = 0; i < maker->record.points.count; i++)
+        pir_number_list_add(&facet->points, space, maker->record.points.number[i]);
+    for (uint32_t i = 0; i < maker->record.planes.count; i++)
+        pir_number_list_add(&facet->planes, space, maker->record.planes.number[i]);
+    if (space->status != PIR_OK)
+        return;
+    facet->half = candidates->polygon[0].half;
+    for (uint32_t i = 0; i < candidates->count; i++)
+        candidates->polygon[i].half = facet->half;
+    const uint32_t *direction = space->plane[candidates->wall[0] >> 1].direction;
+    for (facet->axis = 0; facet->axis < 2 && space->axis[facet->axis] != direction[1]; facet->axis++)
+        ;
+    facet->upright = space->plane[facet->half >> 1].n[facet->axis];
+}
+
+bool pir_kept_facet_is_upright(pir_facet_maker *maker, const pir_plane_facet *facet) {
+    pir_space_renew_plane(maker->space, facet->half >> 1);
+    return maker->space->plane[facet->half >> 1].n[facet->axis] * facet->upright > .1;
+}
+
+static void renew_candidates(pir_facet_maker *maker, const pir_plane_facet *facet) {
+    for (uint32_t i = 0; i < facet->candidates.corner_count; i++)
+        pir_space_renew_point(maker->space, facet->candidates.point[i]);
+}
+
+pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
+    renew_candidates(maker, facet);
+    for (uint32_t i = 0; i < facet->candidates.corner_count; i++)
+        pir_space_box_add(&box, &maker->space->point[facet->candidates.point[i]]);
+    return box;
+}
+
+/* The least distance of the candidates' corners from a plane, on one side of it, of those that are not in it at every
+ * rotation; 0 or less where it is not sure, or all are in it. */
+static double distance_of_all(pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t plane, int side) {
+    double least = (double)INFINITY;
+    for (uint32_t i = 0; i < facet->candidates.corner_count && least > 0; i++) {
+        const uint32_t corner = facet->candidates.point[i];
+        const double own = pir_sure_distance(maker->space, plane, corner, side);
+        if (own > 0 || side > 0 || own < -0x1p-40 || !pir_identity_holds(maker->space, plane, corner))
+            least = own < least ? own : least;
+    }
+    return least < (double)INFINITY ? least : 0;
+}
+
+/* --- pairs that are apart --- */
+
+static void renew_pair(pir_facet_maker *maker, uint32_t pair) {
+    const pir_kept_pair_sum *sum = &maker->pairs->pair[pair];
+    for (uint32_t k = 0; k < sum->count; k++)
+        pir_space_renew_plane(maker->space, sum->plane[k]);
+}
+
+/* How far two boxes are apart. */
+static double gap_of(const pir_space_box *a, const pir_space_box *b) {
+    double gap = -(double)INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double above = a->low[k] - b->high[k], below = b->low[k] - a->high[k];
+        gap = above > gap ? above : gap;
+        gap = below > gap ? below : gap;
+    }
+    return gap;
+}
+
+/* The plane of a pair's sum that the candidates' middle is farthest above. */
+static uint32_t farthest_plane(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_kept_pair_sum *sum) {
+    const pir_space *space = maker->space;
+    const uint32_t count = facet->candidates.corner_count;
+    double middle[3] = {0}, least = (double)INFINITY;
+    uint32_t best = sum->plane[0];
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            middle[k] += space->point[facet->candidates.point[i]].x[k] / count;
+    for (uint32_t k = 0; k < sum->count; k++) {
+        const pir_space_plane *f = &space->plane[sum->plane[k]];
+        const double depth = f->d - (f->n[0] * middle[0] + f->n[1] * middle[1] + f->n[2] * middle[2]);
+        if (depth < least) {
+            least = depth;
+            best = sum->plane[k];
+        }
+    }
+    return best;
+}
+
+static void add_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far, double distance) {
+    pir_space *space = maker->space;
+    const double until = pir_distance_until(maker, far.plane, distance);
+    if (!pir_space_grow(space, (void **)&facet->far, &facet->far_room, facet->far_count, sizeof *facet->far) ||
+        !pir_space_grow(space, (void **)&facet->far_until, &facet->far_until_room, facet->far_count,
+                        sizeof *facet->far_until))
+        return;
+    uint32_t at = facet->far_count++;
+    if (until < facet->horizon) {
+        facet->far[at] = facet->far[facet->far_soon];
+        facet->far_until[at] = facet->far_until[facet->far_soon];
+        at = facet->far_soon++;
+    }
+    facet->far[at] = far;
+    facet->far_until[at] = until;
+}
+
+/* Proves that the sum of the pair near[at] covers nothing of the candidates: by boxes, if that may stand for some
+ * frames, or by a plane, the farthest or any. */
+static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
+    pir_near_pair *near = &facet->near[at];
+    const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
+    const pir_space_box box = pir_kept_pair_box(maker->pairs, near->pair), own = pir_kept_facet_box(maker, facet);
+    const double least = fmin(maker->diameter[0], maker->diameter[1]);
+    const double gap = gap_of(&own, &box) * (1 - 0x1p-40) / least;
+    if (gap >= maker->step && gap > 0) {
+        near->cover = PIR_COVER_GAP;
+        near->until = maker->turn + gap;
+        facet->near_until = fmin(facet->near_until, near->until);
+        return true;
+    }
+    renew_pair(maker, near->pair);
+    near->plane = farthest_plane(maker, facet, sum);
+    double distance = distance_of_all(maker, facet, near->plane, 1);
+    for (uint32_t k = 0; k < sum->count && distance <= 0; k++) {
+        near->plane = sum->plane[k];
+        distance = distance_of_all(maker, facet, near->plane, 1);
+    }
+    if (distance <= 0 && gap <= 0)
+        return false;
+    near->cover = distance > 0 ? PIR_COVER_APART : PIR_COVER_GAP;
+    near->until = maker->turn + gap;
+    if (distance > 0)
+        add_far(maker, facet, (pir_far_plane){near->plane, at, 1}, distance);
+    else
+        facet->near_until = fmin(facet->near_until, near->until);
+    return true;
+}
+
+/* --- pairs that may clip --- */
+
+/* Takes a plane of a pair that may clip. */
+static void take_plane(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at, uint32_t plane) {
+    const double distance = distance_of_all(maker, facet, plane, -1);
+    if (distance > 0) {
+        add_far(maker, facet, (pir_far_plane){plane, at, -1}, distance);
+        return;
+    }
+    if (pir_space_grow(maker->space, (void **)&facet->cut, &facet->cut_room, facet->cut_count, sizeof *facet->cut))
+        facet->cut[facet->cut_count++] = (pir_cut_plane){plane, at};
+    if (facet->stands && facet->near[at].cover == PIR_COVER_CLIPS)
+        pir_kept_facet_amend_plane(maker, facet, at, plane);
+}
+
+/* Whether a pair's sum is below the facet's plane and touches it at every rotation; notes how deep the candidates'
+ * middle is in it. */
+static bool is_below(pir_facet_maker *maker, const pir_plane_facet *facet, pir_near_pair *near) {
+    pir_space *space = maker->space;
+    const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
+    const pir_ball ball = pir_polygons_ball(&facet->candidates, 0);
+    near->depth = (double)INFINITY;
+    for (uint32_t k = 0; k < sum->count; k++) {
+        const uint32_t plane = sum->plane[k];
+        const double depth = pir_ball_depth(&ball, &space->plane[plane]);
+        near->depth = fmin(near->depth, depth);
+        if (fabs(depth) < 0x1p-40 && pir_identity_of_planes(space, facet->half >> 1, plane) &&
+            pir_planes_face_one_way(space, facet->half >> 1, plane) == !(facet->half & 1)) {
+            near->plane = plane;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Takes the pair near[at], which is not known to be apart. */
+static void join(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
+    pir_near_pair *near = &facet->near[at];
+    const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
+    renew_candidates(maker, facet);
+    pir_space_renew_plane(maker->space, facet->half >> 1);
+    renew_pair(maker, near->pair);
+    near->cover = is_below(maker, facet, near) ? PIR_COVER_BELOW : PIR_COVER_NONE;
+    for (uint32_t k = 0; k < sum->count && near->cover == PIR_COVER_NONE; k++)
+        take_plane(maker, facet, at, sum->plane[k]);
+    if (facet->stands && near->cover == PIR_COVER_NONE)
+        pir_kept_facet_amend_pair(maker, facet, at);
+}
+
+static void add_near(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t pair) {
+    if (!pir_space_grow(maker->space, (void **)&facet->near, &facet->near_room, facet->near_count, sizeof *facet->near))
+        return;
+    const uint32_t at = facet->near_count++;
+    facet->near[at] = (pir_near_pair){.pair = pair, .plane = PIR_SPACE_NONE};
+    if (!prove_apart(maker, facet, at))
+        join(maker, facet, at);
+}
+
+void pir_kept_facet_make(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count) {
+    clear(maker, facet);
+    make_candidates(maker, facet);
+    for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++)
+        add_near(maker, facet, near[i]);
+    facet->based = maker->space->status == PIR_OK;
+}
+
+void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count) {
+    for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++) {
+        uint32_t at = 0;
+        while (at < facet->near_count && facet->near[at].pair != near[i])
+            at++;
+        if (at == facet->near_count)
+            add_near(maker, facet, near[i]);
+    }
+}
+
+/* --- after a turn --- */
+
+/* Takes the planes that pairs which may clip have got, and finds those whose own plane is gone. */
+static bool take_changes(pir_facet_maker *maker, pir_plane_facet *facet) {
+    bool changed = false;
+    for (uint32_t i = 0; i < facet->near_count; i++) {
+        pir_near_pair *near = &facet->near[i];
+        const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
+        if (sum->changed != maker->space->frame)
+            continue;
+        changed = true;
+        renew_candidates(maker, facet);
+        if (near->cover == PIR_COVER_BELOW && pir_plane_is_dropped(maker->pairs, near->plane))
+            join(maker, facet, i);
+        else if (near->cover == PIR_COVER_CLIPS || near->cover == PIR_COVER_NONE)
+            for (uint32_t k = 0; k < sum->new_count; k++)
+                take_plane(maker, facet, i, maker->pairs->added[sum->first_new + k]);
+    }
+    return changed;
+}
+
+static void drop_cuts(pir_facet_maker *maker, pir_plane_facet *facet) {
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < facet->cut_count; i++)
+        if (!pir_plane_is_dropped(maker->pairs, facet->cut[i].plane))
+            facet->cut[kept++] = facet->cut[i];
+    facet->cut_count = kept;
+}
+
+/* Looks at a plane again; whether all corners are still on its side. */
+static bool look_again(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t i) {
+    const pir_far_plane far = facet->far[i];
+    maker->looked++;
+    renew_candidates(maker, facet);
+    pir_space_renew_plane(maker->space, far.plane);
+    const double distance = distance_of_all(maker, facet, far.plane, far.sign);
+    facet->far_until[i] = pir_distance_until(maker, far.plane, distance);
+    return distance > 0;
+}
+
+/* Does without a plane that is dropped, or that not all corners are on one side of any longer. */
+static void replace_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far, bool dropped) {
+    renew_candidates(maker, facet);
+    if (far.sign > 0 && !prove_apart(maker, facet, far.near))
+        join(maker, facet, far.near);
+    if (far.sign < 0 && !dropped)
+        take_plane(maker, facet, far.near, far.plane);
+}
+
+static void swap_far(pir_plane_facet *facet, uint32_t i, uint32_t j) {
+    const pir_far_plane far = facet->far[i];
+    const double until = facet->far_until[i];
+    facet->far[i] = facet->far[j];
+    facet->far_until[i] = facet->far_until[j];
+    facet->far[j] = far;
+    facet->far_until[j] = until;
+}
+
+/* Takes a far plane out: the last ones take its place. */
+static void drop_far(pir_plane_facet *facet, uint32_t i) {
+    if (i < facet->far_soon) {
+        swap_far(facet, i, --facet->far_soon);
+        i = facet->far_soon;
+    }
+    swap_far(facet, i, --facet->far_count);
+}
+
+/* Puts those first that may not hold for some frames. */
+static void sort_far(const pir_facet_maker *maker, pir_plane_facet *facet) {
+    facet->horizon = maker->turn + HORIZON_STEPS * maker->step;
+    facet->far_soon = 0;
+    for (uint32_t i = 0; i < facet->far_count; i++)
+        if (facet->far_until[i] < facet->horizon)
+            swap_far(facet, i, facet->far_soon++);
+}
+
+/* Looks at the far planes that may be wrong, and at all that are dropped where pairs have changed. */
+static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet, bool changed) {
+    const double turn = maker->turn;
+    if (turn >= facet->horizon)
+        sort_far(maker, facet);
+    for (uint32_t i = 0; i < (changed ? facet->far_count : facet->far_soon) && maker->space->status == PIR_OK;) {
+        const pir_far_plane far = facet->far[i];
+        const bool dropped = changed && pir_plane_is_dropped(maker->pairs, far.plane);
+        if (!dropped && (facet->far_until[i] > turn || look_again(maker, facet, i))) {
+            i++;
+            continue;
+        }
+        drop_far(facet, i);
+        replace_far(maker, facet, far, dropped);
+    }
+}
+
+static void follow_gaps(pir_facet_maker *maker, pir_plane_facet *facet) {
+    facet->near_until = (double)INFINITY;
+    for (uint32_t i = 0; i < facet->near_count && maker->space->status == PIR_OK; i++) {
+        if (facet->near[i].cover != PIR_COVER_GAP)
+            continue;
+        if (facet->near[i].until <= maker->turn && !prove_apart(maker, facet, i))
+            join(maker, facet, i);
+        else if (facet->near[i].cover == PIR_COVER_GAP)
+            facet->near_until = fmin(facet->near_until, facet->near[i].until);
+    }
+}
+
+void pir_kept_facet_follow(pir_facet_maker *maker, pir_plane_facet *facet) {
+    const bool changed = take_changes(maker, facet);
+    if (changed)
+        drop_cuts(maker, facet);
+    follow_planes(maker, facet, changed);
+    if (maker->turn >= facet->near_until)
+        follow_gaps(maker, facet);
+}

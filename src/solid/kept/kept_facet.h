@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The boundary of a sum in the plane of one candidate, or of several that are in one plane at every rotation: clipped
+ * once, and kept while the choices made on the way stay the same.
+ *
+ * A choice rests on the side of a plane that a point is on. Where the point is a sum of vertices, its distance from the
+ * plane bounds how far P may turn before that changes; the side is `cold`, and looked at once P has turned so far. A
+ * point where three planes meet may move at any speed: its sides are `hot`, and looked at in every frame.
+ *
+ * The rates: with P turning by an angle, of a plane with a normal of P, n·(x − y) changes by no more than Q's
+ * diameter times it; x and y are sums of vertices, and in P's frame only Q moves. Likewise with a normal of Q. Where
+ * the normal is e × g, of unit edges of both, |e × g| times the distance changes by no more than both diameters. And
+ * two convex sets, a candidate and a pair's sum, part or approach by no more than the lesser diameter times the angle.
+ *
+ * Invariants of a facet that stands, at the rotation at hand:
+ * - Each side that its record has is as it was told, or may be wrong only if P has turned past what is noted there.
+ * - Of each pair whose sum is nearer to its candidates than the skin there is an entry, which says what of it counts.
+ *   A pair that is not there covers nothing.
+ * - Of a pair that may clip, each plane either has all corners of the candidates below it, or in it at every rotation,
+ *   and so cuts nothing of them; or it is among `cut`.
+ */
+#ifndef PIR_SOLID_KEPT_KEPT_FACET_H
+#define PIR_SOLID_KEPT_KEPT_FACET_H
+
+#include "solid/glue/union_outline.h"
+#include "solid/kept/kept_pairs.h"
+#include "solid/space/record.h"
+#include "solid/sum/subtract.h"
+
+/* The features of a candidate: a facet of P and a vertex of Q, two edges, a facet of Q and a vertex of P. In this
+ * order, the numbers likewise, candidates are made anew. */
+enum pir_candidate_kind { PIR_FACET_OF_P, PIR_TWO_EDGES, PIR_FACET_OF_Q };
+
+/* A candidate, and the plane that it has at every rotation: by the first facet in one plane, the first edges on one
+ * line. */
+typedef struct pir_candidate_key {
+    uint32_t kind, plane[2];
+    uint32_t a, b; /* facet and vertex, or edges */
+    bool turned;   /* whether the normal is against that of e × g */
+} pir_candidate_key;
+
+/* The part of a pair's sum that counts for a facet. */
+enum pir_pair_cover {
+    PIR_COVER_CLIPS, /* it was taken from the candidates */
+    PIR_COVER_NONE,  /* nothing: all was covered without it */
+    PIR_COVER_BELOW, /* a plane, which is the facet's own, with the sum below it */
+    PIR_COVER_APART, /* a plane that the candidates are above */
+    PIR_COVER_GAP,   /* boxes that are apart, until P has turned so far */
+};
+
+typedef struct pir_near_pair {
+    uint32_t pair;
+    enum pir_pair_cover cover;
+    uint32_t plane; /* below, or apart */
+    double until, depth;
+    uint32_t first_cut, cuts; /* scratch of clipping */
+} pir_near_pair;
+
+/* All corners of the candidates on one side of a plane of the pair near[near]: −1 of one that cuts nothing, 1 of one
+ * that holds it apart. */
+typedef struct pir_far_plane {
+    uint32_t plane, near;
+    int32_t sign;
+} pir_far_plane;
+
+typedef struct pir_cut_plane {
+    uint32_t plane, near;
+} pir_cut_plane;
+
+typedef struct pir_plane_facet {
+    pir_candidate_key *key; /* of all candidates in its plane */
+    uint32_t key_count, key_room;
+    bool based, stands, fleeting; /* whether what follows is there; whether what bounds the sum is right */
+    /* the candidates, and what is near them */
+    uint32_t half;
+    uint32_t axis;  /* that the walls of the candidates are parallel to */
+    double upright; /* how far the plane's normal led along it when they were made */
+    pir_polygons candidates;
+    pir_number_list points, planes; /* of the space, which only the candidates have */
+    pir_near_pair *near;
+    pir_far_plane *far;
+    double *far_until; /* per far plane: how far P may turn */
+    pir_cut_plane *cut;
+    uint32_t near_count, near_room, far_count, far_room, far_until_room, cut_count, cut_room;
+    uint32_t far_soon; /* the first of them, of which some may not hold past `horizon` */
+    double horizon;    /* up to which all others hold */
+    double near_until; /* the least of what is noted with near pairs */
+    /* what clipping told, and what it left */
+    pir_number_list made; /* points of the space */
+    pir_told_side *hot;
+    pir_told_side *cold;
+    double *cold_until; /* as of far planes */
+    pir_parted_polygon *parted;
+    pir_met *met;            /* with no set, what is left */
+    pir_number_list corners; /* of what is parted or met */
+    uint32_t hot_count, hot_room, cold_count, cold_room, parted_count, parted_room, met_count, met_room;
+    uint32_t cold_until_room;
+    double told_until; /* the least of what is noted with cold sides */
+    uint32_t survivors;
+    uint32_t renewed; /* the frame in which the doubles of its edges were made */
+    pir_segment_list edge;
+} pir_plane_facet;
+
+/* The scratch that the making of facets shares. */
+typedef struct pir_facet_maker {
+    pir_space *space;
+    const pir_shell_body *body; /* both */
+    pir_kept_pairs *pairs;
+    double diameter[2]; /* of P and Q, in the space */
+    double turn, step;  /* of P so far, a bound on its way; and in this frame */
+    pir_side_record record;
+    pir_polygons polygons;
+    pir_fragments fragments, kept;
+    uint32_t *half, half_room, *order, *work, order_room, work_room;
+    uint64_t made, looked; /* facets clipped, sides looked at, in this frame */
+} pir_facet_maker;
+
+void pir_facet_maker_finish(pir_facet_maker *maker);
+
+/* Makes the candidates anew, of the facet's keys; `near` are the pairs whose sums are nearer than the skin. The status
+ * is the space's, as of all that follows. */
+void pir_kept_facet_make(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count);
+
+/* Takes pairs that may have become nearer than the skin. */
+void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count);
+
+/* Brings what is near to the rotation at hand; where that may change what bounds the sum, the facet does not stand. */
+void pir_kept_facet_follow(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Whether the walls of the candidates still lead across their plane, on the same side. */
+bool pir_kept_facet_is_upright(pir_facet_maker *maker, const pir_plane_facet *facet);
+
+/* The box of the facet's candidates. */
+pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Gives back the numbers that only the facet has, and its memory. */
+void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* How far P may turn before a sum of vertices at this distance from a plane, not sure where it is not above 0, may be
+ * in it: counted from the beginning. */
+double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance);
+
+/* A distance by doubles that a point has at least from a plane, on that side; 0 or less where they do not tell. */
+double pir_sure_distance(const pir_space *space, uint32_t plane, uint32_t point, int side);
+
+/* --- clipping (clip_facet.c) --- */
+
+/* Clips the candidates by what is near, and unites what is left. */
+void pir_kept_facet_clip(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Whether all that clipping was told is as it was. */
+bool pir_kept_facet_stands(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Takes a plane that the pair near[at] has got: the facet stands on if it cuts nothing of what the pair met. */
+void pir_kept_facet_amend_plane(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at, uint32_t plane);
+
+/* Takes the pair near[at] last of all: the facet stands on if it is apart from all that is left. */
+void pir_kept_facet_amend_pair(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at);
+
+/* Forgets what clipping left. */
+void pir_kept_facet_unclip(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Makes the doubles of the points of the facet's edges. */
+void pir_kept_facet_renew(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Makes numbers of points or planes spare. */
+void pir_give_back(pir_space *space, pir_space_spare *spare, pir_number_list *list);
+
+#endif
