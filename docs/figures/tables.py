@@ -347,7 +347,16 @@ def solid_depth(r):
     return markdown(["bodies", ">steps a turn", ">median", ">mean", ">p99", ">FCL", ">FCL is off by"], rows)
 
 
+def solid_track(r):
+    rows = []
+    for row in r.solid_track.rows:
+        rebuild, *kept = (float(row[f"{what}_ms"]) for what in ("rebuild", "update", "update_glued"))
+        rows.append([row["sum"], count(row["steps"]), two(rebuild),
+                     *(f"{two(ms)} ({rebuild / ms:.1f}×)" for ms in kept), f"{two(100 * float(row['clipped']))} %"])
+    return markdown(["sum", ">steps a turn", ">rebuild, ms", ">update, ms", ">update and gluing, ms", ">clipped"], rows)
+
+
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
     scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid,
-    classify, solids, solid_query, solid_depth)}
+    classify, solids, solid_query, solid_depth, solid_track)}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Sums of solids that turn: updates beside rebuilds, at the same rotations in one run, about an axis that changes every
+ * 50 frames.
+ *
+ * solid_track.csv has a line for each pair and step: the median time of an update, of an update with facets glued
+ * together, of a rebuild, which glues them; and which part of all planes of candidates the updates clipped.
+ *
+ *     bench_solid_track FOLDER
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "results.h"
+#include "solid/models.h"
+
+#define FRAMES_MOST 200
+
+struct pair {
+    const char *name, *p, *q;
+    double q_divisor;
+    uint32_t frames;
+};
+
+static void check(pir_status status) {
+    if (status == PIR_OK)
+        return;
+    fprintf(stderr, "bench_solid_track: %s\n", pir_status_text(status));
+    exit(2);
+}
+
+static double now_ms(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+static int by_size(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *ms, uint32_t count) {
+    qsort(ms, count, sizeof *ms, by_size);
+    return ms[count / 2];
+}
+
+/* A rotation by `angle` about the frame's axis, after q. */
+static pir_quat turned(pir_quat q, uint32_t frame, double angle) {
+    const double k = 1 + frame / 50, x = sin(1.3 * k), y = cos(2.1 * k), z = sin(.7 * k + 1);
+    const double s = sin(angle / 2) / sqrt(x * x + y * y + z * z), c = cos(angle / 2);
+    const pir_quat b = {s * x, s * y, s * z, c};
+    return (pir_quat){b.w * q.x + b.x * q.w + b.y * q.z - b.z * q.y, b.w * q.y - b.x * q.z + b.y * q.w + b.z * q.x,
+                      b.w * q.z + b.x * q.y - b.y * q.x + b.z * q.w, b.w * q.w - b.x * q.x - b.y * q.y - b.z * q.z};
+}
+
+static void run(FILE *csv, const struct pair *pair, uint32_t steps) {
+    static double update[FRAMES_MOST], glued[FRAMES_MOST], rebuild[FRAMES_MOST];
+    const uint32_t frames = results_count(pair->frames);
+    pir_solid *p = solid_model_new(pair->p, 1), *q = solid_model_new(pair->q, pair->q_divisor);
+    pir_quat rotation = {.3, .1, .2, .9};
+    pir_solid_sum *kept, *fresh;
+    pir_solid_sum_info info = {0};
+    uint64_t clipped = 0, planes = 0;
+    check(pir_solid_sum_create(p, q, rotation, NULL, &kept));
+    check(pir_solid_sum_create(p, q, rotation, NULL, &fresh));
+    check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
+    for (uint32_t i = 0; i < frames; i++) {
+        rotation = turned(rotation, i, 8 * atan(1) / steps);
+        const double begun = now_ms();
+        check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
+        const double turned_at = now_ms();
+        check(pir_solid_sum_describe(kept, &info));
+        const double glued_at = now_ms();
+        check(pir_solid_sum_rotate(fresh, rotation, PIR_SOLID_REBUILD));
+        rebuild[i] = now_ms() - glued_at;
+        update[i] = turned_at - begun;
+        glued[i] = glued_at - begun;
+        clipped += info.clipped;
+        planes += info.candidates;
+    }
+    char line[256];
+    snprintf(line, sizeof line, "%s,%u,%u,%llu,%u,%.3f,%.3f,%.3f,%.3g", pair->name, steps, frames,
+             (unsigned long long)info.candidates, info.facets, median(update, frames), median(glued, frames),
+             median(rebuild, frames), (double)clipped / (double)planes);
+    fprintf(csv, "%s\n", line);
+    printf("%s\n", line);
+    pir_solid_sum_destroy(kept);
+    pir_solid_sum_destroy(fresh);
+    pir_solid_release(p);
+    pir_solid_release(q);
+}
+
+int main(int argc, char **argv) {
+    static const struct pair pairs[] = {{"mushroom ⊕ cube", "mushroom", "cube", 1, 200},
+                                        {"mushroom ⊕ ball128/10", "mushroom", "ball128", 10, 100},
+                                        {"gear8 ⊕ star5", "gear8", "star5", 1, 200},
+                                        {"spoon ⊕ spoon", "spoon", "spoon", 1, 40},
+                                        {"stella ⊕ ball128", "stella", "ball128", 1, 200}};
+    if (argc != 2) {
+        fprintf(stderr, "usage: bench_solid_track FOLDER\n");
+        return 2;
+    }
+    const struct results where = results_new(argv[1]);
+    FILE *csv = results_open(&where, "solid_track.csv");
+    fprintf(csv, "sum,steps,frames,candidates,facets,update_ms,update_glued_ms,rebuild_ms,clipped\n");
+    printf("%s\n", where.machine);
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
+        for (uint32_t steps = 50; steps <= 5000; steps *= 10)
+            run(csv, &pairs[i], steps);
+    results_close(csv, "solid_track.csv");
+    return 0;
+}
