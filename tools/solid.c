@@ -42,7 +42,7 @@ static bool has_option(const struct command *command, const char *name) {
 
 /* Refuses options that are about hulls, of a subcommand that is for hulls without --solid. */
 static bool check_options(const struct args *args) {
-    static const char *const of_hulls[] = {"--merge", "--require-convex", "--method"};
+    static const char *const of_hulls[] = {"--merge", "--require-convex"};
     if (!has_option(args->command, "--solid"))
         return true;
     for (size_t i = 0; i < sizeof of_hulls / sizeof *of_hulls; i++)

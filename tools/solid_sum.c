@@ -118,6 +118,10 @@ static pir_status compute(const pir_solid *p, const pir_solid *q, const struct r
 }
 
 int solid_sum(const struct args *args) {
+    if (args_has(args, "--method")) {
+        complain("sum: --method is for hulls; with --solid models are taken as they are");
+        return EXIT_BAD_INPUT;
+    }
     struct request request = {.options = pir_solid_sum_options_default()};
     request.options.difference = args_has(args, "--difference");
     request.options.open = args_has(args, "--open");

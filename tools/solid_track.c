@@ -143,6 +143,7 @@ static bool print_json(const struct solid_run *run) {
     struct json json = json_new();
     track_add_request(&json, run->request, run->frames, run->interrupted);
     json_add_flag(&json, json.root, "solid", true);
+    json_add_text(&json, json.root, "method", run->request->method_name);
     json_add_flag(&json, json.root, "open", run->request->open);
     cJSON *update = json_add_object(&json, json.root, "update_ns");
     json_add_number(&json, update, "median", run->rotate.median);

@@ -69,11 +69,6 @@ static inline int pir_sign_at(const pir_sign_half *half, uint32_t row, uint32_t 
     return (row ^ column) & 1 ? -sign : sign;
 }
 
-/* The sign of edge · normal, by the numbers of their directions in the space; the edge is of body k. */
-static inline int pir_sign_of(const pir_sign_half *half, uint32_t edge, uint32_t normal) {
-    return pir_sign_at(half, half->row_of[edge], half->column_of[normal]);
-}
-
 /* Whether the arcs of an edge of P and one of Q cross, and which way: the sign of Q's right normal · P's edge. */
 static inline int pir_arcs_cross(const pir_sign_half half[2], const pir_table_edge *e, const pir_table_edge *g) {
     const int right = pir_sign_at(&half[0], e->row, g->right);
