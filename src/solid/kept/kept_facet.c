@@ -78,9 +78,10 @@ double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double d
     const uint32_t first = body_of(space, f->direction[0]);
     if (!(distance > 0))
         return maker->turn;
-    if (f->direction[1] == PIR_SPACE_NONE || body_of(space, f->direction[1]) == first)
-        return maker->turn + distance / maker->diameter[1 - first] * (1 - 0x1p-40);
-    return maker->turn + distance * f->length / (maker->diameter[0] + maker->diameter[1]) * (1 - 0x1p-40);
+    double leeway = distance / maker->diameter[1 - first];
+    if (f->direction[1] != PIR_SPACE_NONE && body_of(space, f->direction[1]) != first)
+        leeway = distance * (f->length - 0x1p-45) / (maker->diameter[0] + maker->diameter[1]);
+    return maker->turn + leeway * (1 - 0x1p-40) - PIR_TURN_SLACK;
 }
 
 double pir_sure_distance(const pir_space *space, uint32_t plane, uint32_t point, int side) {
@@ -224,7 +225,7 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
     const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
     const pir_space_box box = pir_kept_pair_box(maker->pairs, near->pair), own = pir_kept_facet_box(maker, facet);
     const double least = fmin(maker->diameter[0], maker->diameter[1]);
-    const double gap = gap_of(&own, &box) * (1 - 0x1p-40) / least;
+    const double gap = gap_of(&own, &box) * (1 - 0x1p-40) / least - PIR_TURN_SLACK;
     if (gap >= maker->step && gap > 0) {
         near->cover = PIR_COVER_GAP;
         near->until = maker->turn + gap;

@@ -258,7 +258,7 @@ static void make_boxes(pir_kept_sum *kept, double step) {
     const double turn = fmin(SKIN_STEPS * step, SKIN_MOST);
     kept->boxes_turn = kept->maker.turn;
     kept->skin = turn * fmin(kept->maker.diameter[0], kept->maker.diameter[1]);
-    kept->near_until = kept->maker.turn + turn * (1 - 0x1p-40);
+    kept->near_until = kept->maker.turn + turn * (1 - 0x1p-40) - PIR_TURN_SLACK;
 }
 
 /* The pairs whose sums are nearer to a facet's candidates than the skin, of the box that those have: the boxes of the
@@ -373,7 +373,7 @@ bool pir_kept_sum_update(pir_kept_sum *kept, pir_quat rotation) {
     const double step = pir_angle_between(kept->rotation, to);
     kept->valid = false;
     kept->rotation = to;
-    kept->maker.turn += step;
+    kept->maker.turn += step + PIR_TURN_SLACK;
     kept->maker.step = step;
     if (!pir_sign_table_update(&kept->table, kept->maker.turn))
         return false;

@@ -219,7 +219,7 @@ static bool make_row(pir_sign_table *table, uint32_t k, uint32_t row, double tur
         sign[c] = made;
     }
     table->looked += columns;
-    half->until[row] = turn + (least - DOT_ERROR) * (1 - 0x1p-40);
+    half->until[row] = turn + (least - DOT_ERROR) * (1 - 0x1p-40) - PIR_TURN_SLACK;
     return least > DOT_ERROR;
 }
 

@@ -16,6 +16,11 @@
 #include "solid/body/solid_body.h"
 #include "solid/sum/convex.h"
 
+/* How far P has turned is a sum over its steps, in radians, of which each is told as so much more than it is: so the
+ * sum is a bound up to PIR_TURN_MOST, where doubles round by half of this. */
+#define PIR_TURN_SLACK 0x1p-46
+#define PIR_TURN_MOST  64.
+
 /* A place in lists of lists: entry[start[i]] up to entry[start[i + 1]]. */
 typedef struct pir_list_of_lists {
     uint32_t *start, *entry, count, entry_count;

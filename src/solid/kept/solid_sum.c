@@ -140,7 +140,7 @@ static bool begin_to_keep(pir_solid_sum *sum, pir_quat rotation, const double sc
 /* Brings what is kept to a rotation; likewise. */
 static bool update(pir_solid_sum *sum, pir_quat rotation, const double scale[2]) {
     pir_kept_sum *kept = &sum->kept;
-    if (!kept->valid)
+    if (!kept->valid || kept->maker.turn > PIR_TURN_MOST / 2)
         return begin_to_keep(sum, rotation, scale);
     pir_kept_sum_begin(kept);
     turn(sum, scale, true);
