@@ -71,16 +71,17 @@ class Libraries(unittest.TestCase):
             self.assertFalse([word for word in given[name] if not word.startswith(mine)], name)
 
     def test_the_command_starts_within_five_milliseconds(self):
-        """The least of many starts: others may keep the processor busy in most."""
+        """More than an empty program takes, the least of many starts of each: others may keep the processor busy."""
         if not PROGRAMS or os.environ.get("PIR_SANITIZED"):
             self.skipTest("no command in this build, or one that is watched")
-        least = 1e9
+        least = [1e9, 1e9]
         for _ in range(200):
-            begun = time.perf_counter()
-            done = subprocess.run([PROGRAMS[0], "--version"], capture_output=True, check=True)
-            least = min(least, time.perf_counter() - begun)
+            for k, command in enumerate((["true"], [PROGRAMS[0], "--version"])):
+                begun = time.perf_counter()
+                done = subprocess.run(command, capture_output=True, check=True)
+                least[k] = min(least[k], time.perf_counter() - begun)
         self.assertTrue(done.stdout.startswith(b"pirouette "))
-        self.assertLess(least, 0.005)
+        self.assertLess(least[1] - least[0], 0.005)
 
 
 if __name__ == "__main__":
