@@ -159,15 +159,18 @@ class Rounds(Race):
 
 
 class Holder(Race):
-    def wait_for(self, run, path):
+    """A run that is stopped in the middle of its work, so that it holds what it holds for as long as others take."""
+
+    def hold(self, run, path):
         while not path.exists():
             self.assertIsNone(run.poll())
             time.sleep(0.002)
+        run.send_signal(signal.SIGSTOP)
 
     def test_who_makes_the_file_is_named(self):
         output = self.folder_of("a.h5")
         first = self.start([*self.slicing("shape:gs3", 2), output])
-        self.wait_for(first, output.parent / "a.h5.part0")
+        self.hold(first, output.parent / "a.h5.part0")
         self.bad(*self.slicing("shape:gs2"), output,
                  says=f"a.h5: process {first.pid} on {os.uname().nodename} is making it")
         first.kill()
@@ -179,7 +182,7 @@ class Holder(Race):
     def test_a_folder_is_written_by_one_run(self):
         frames = ["track", self.tetrahedron, self.pyramid, "--dump", self.path / "out", "--frames"]
         first = self.start([*frames, 1000000])
-        self.wait_for(first, self.path / "out" / "frame-000001.off")
+        self.hold(first, self.path / "out" / "frame-000001.off")
         for args in ([*frames, 2], ["decompose", self.tetrahedron, "-o", self.path / "out"]):
             self.bad(*args, says="out: cannot write into it: another run does")
         first.kill()
