@@ -50,6 +50,11 @@ static double angle_at(const struct layers *l, uint32_t arc) {
     return l->outer ? arc / 2 * (2 * PI / (l->arcs / 2)) : arc * (2 * PI / l->arcs);
 }
 
+static pir_quat turn_by(const struct layers *l, double angle) {
+    const double *u = l->question->axis, s = sin(angle / 2);
+    return (pir_quat){s * u[0], s * u[1], s * u[2], cos(angle / 2)};
+}
+
 /* An arc that has an angle, given as a part of a full turn; the single angle where there is one. */
 static uint32_t arc_with(const struct layers *l, double part) {
     const double at = part * (l->outer ? l->arcs / 2 : l->arcs);
@@ -59,8 +64,8 @@ static uint32_t arc_with(const struct layers *l, double part) {
 
 static pir_status add_sums(struct layers *l, uint32_t arc) {
     const pir_plan_pieces *robot = l->question->robot;
-    const double *u = l->question->axis;
-    const pir_plan_arc turn = {{u[0], u[1], u[2]}, angle_at(l, arc), angle_at(l, arc + 1)};
+    const double ends[2] = {angle_at(l, arc), angle_at(l, arc + 1)};
+    const pir_plan_turns turn = {{turn_by(l, ends[0]), turn_by(l, ends[1])}, ends[0] < ends[1] ? 2 : 1};
     pir_plan_pieces *turned = &l->turned[arc];
     turned->at = calloc(robot->count, sizeof *turned->at);
     turned->body = calloc(robot->count, sizeof *turned->body);
