@@ -30,7 +30,8 @@ static void join_two(pir_plan_cutter *cutter, const pir_plan_tree *tree, uint32_
     // three vertices span a polygon
     if (common.points >= (tree->open ? 1u : 3u) && space->status == PIR_OK &&
         pir_plan_grow(space, (void **)&joints->joint, &joints->room, joints->count + 1, sizeof *joints->joint)) {
-        const uint32_t door = pir_plan_point_mean(space, common.point, common.points);
+        const uint32_t door =
+            joints->without_doors ? PIR_PLAN_NONE : pir_plan_point_mean(space, common.point, common.points);
         joints->joint[joints->count++] = (pir_plan_joint){{a, b}, door};
         joints->root[of_a] = of_b;
     }

@@ -20,6 +20,7 @@ typedef struct pir_plan_joints {
     pir_plan_joint *joint;
     uint32_t *root; /* per cell: equal for those that are connected */
     uint32_t count, room, cells;
+    bool without_doors; /* set by who asks: doors are not made */
 } pir_plan_joints;
 
 void pir_plan_join(pir_plan_cutter *cutter, const pir_plan_tree *tree, pir_plan_joints *joints);

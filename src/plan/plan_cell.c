@@ -28,7 +28,7 @@ void pir_plan_cell_free(pir_plan_space *space, pir_plan_cell *cell) {
 void pir_plan_box_add(const pir_plan_space *space, uint32_t point, double low[3], double high[3]) {
     const double *x = space->point[point].at;
     for (int k = 0; k < 3; k++) {
-        const double room = fabs(x[k]) * WIDER + PIR_PLAN_TINY;
+        const double room = fabs(x[k]) * WIDER + PIR_PLAN_TINY + space->point[point].room;
         low[k] = fmin(low[k], x[k] - room);
         high[k] = fmax(high[k], x[k] + room);
     }

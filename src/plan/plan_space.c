@@ -19,7 +19,8 @@ void pir_plan_space_finish(pir_plan_space *space) {
     for (uint32_t i = 0; i < space->plane_count; i++)
         mpz_clears(space->plane[i].n[0], space->plane[i].n[1], space->plane[i].n[2], space->plane[i].d, NULL);
     for (uint32_t i = 0; i < space->point_count; i++)
-        mpz_clears(space->point[i].x[0], space->point[i].x[1], space->point[i].x[2], space->point[i].w, NULL);
+        if (space->point[i].is_exact)
+            mpz_clears(space->point[i].x[0], space->point[i].x[1], space->point[i].x[2], space->point[i].w, NULL);
     pir_plan_free(space, space->plane, space->plane_room, sizeof *space->plane);
     pir_plan_free(space, space->point, space->point_room, sizeof *space->point);
     pir_plan_free(space, space->table, space->table_size, sizeof *space->table);
@@ -175,16 +176,28 @@ static double quotient(const mpz_t x, const mpz_t w) {
     return a == 0 || exponent < -4000 ? 0 : ldexp(a / b, exponent > 4000 ? 4000 : (int)exponent);
 }
 
-/* A new point, whose numbers are set and then closed. */
+/* How many points may stand on each other before integers are made at once. */
+#define MOST_DEPTH 128
+
+/* How small errors are to be beside values. */
+#define WELL_POSED 0x1p-16
+
+/* A new point. */
 static pir_plan_point *open_point(pir_plan_space *space) {
     if (!pir_plan_grow(space, (void **)&space->point, &space->point_room, space->point_count + 1, sizeof *space->point))
         return NULL;
-    pir_plan_point *p = &space->point[space->point_count];
-    mpz_inits(p->x[0], p->x[1], p->x[2], p->w, NULL);
+    pir_plan_point *p = &space->point[space->point_count++];
+    *p = (pir_plan_point){.plane = PIR_PLAN_NONE};
     return p;
 }
 
-static uint32_t close_point(pir_plan_space *space, pir_plan_point *p) {
+/* Has room for the integers of a point, which are then set and closed. */
+static void open_numbers(pir_plan_point *p) {
+    mpz_inits(p->x[0], p->x[1], p->x[2], p->w, NULL);
+    p->is_exact = true;
+}
+
+static void close_numbers(pir_plan_space *space, pir_plan_point *p) {
     mpz_ptr g = space->t[5];
     mpz_gcd(g, p->x[0], p->x[1]);
     mpz_gcd(g, g, p->x[2]);
@@ -197,21 +210,23 @@ static uint32_t close_point(pir_plan_space *space, pir_plan_point *p) {
     mpz_divexact(p->w, p->w, g);
     for (int k = 0; k < 3; k++)
         p->at[k] = quotient(p->x[k], p->w);
+    p->room = 0;
     charge(space, (limbs + mpz_size(p->w)) * sizeof(mp_limb_t));
-    return space->point_count++;
 }
 
 uint32_t pir_plan_point_of(pir_plan_space *space, const mpq_t x[3]) {
     pir_plan_point *p = open_point(space);
     if (!p)
         return 0;
+    open_numbers(p);
     mpz_lcm(p->w, mpq_denref(x[0]), mpq_denref(x[1]));
     mpz_lcm(p->w, p->w, mpq_denref(x[2]));
     for (int k = 0; k < 3; k++) {
         mpz_divexact(p->x[k], p->w, mpq_denref(x[k]));
         mpz_mul(p->x[k], p->x[k], mpq_numref(x[k]));
     }
-    return close_point(space, p);
+    close_numbers(space, p);
+    return space->point_count - 1;
 }
 
 uint32_t pir_plan_point_at(pir_plan_space *space, const double x[3]) {
@@ -225,13 +240,36 @@ uint32_t pir_plan_point_at(pir_plan_space *space, const double x[3]) {
     return point;
 }
 
-void pir_plan_excess(const pir_plan_space *space, uint32_t half, uint32_t point, mpz_t ret_excess) {
-    const pir_plan_plane *h = &space->plane[half >> 1];
-    const pir_plan_point *p = &space->point[point];
-    mpz_mul(ret_excess, h->n[0], p->x[0]);
-    mpz_addmul(ret_excess, h->n[1], p->x[1]);
-    mpz_addmul(ret_excess, h->n[2], p->x[2]);
-    mpz_submul(ret_excess, h->d, p->w);
+/* The product of n and x less d and w, times a sign. */
+static void set_excess(const pir_plan_plane *h, const pir_plan_point *p, mpz_t ret) {
+    mpz_mul(ret, h->n[0], p->x[0]);
+    mpz_addmul(ret, h->n[1], p->x[1]);
+    mpz_addmul(ret, h->n[2], p->x[2]);
+    mpz_submul(ret, h->d, p->w);
+}
+
+const pir_plan_point *pir_plan_point_exact(pir_plan_space *space, uint32_t point) {
+    pir_plan_point *p = &space->point[point];
+    if (p->is_exact)
+        return p;
+    const pir_plan_point *a = pir_plan_point_exact(space, p->end[0]), *b = pir_plan_point_exact(space, p->end[1]);
+    mpz_ptr of_a = space->t[0], of_b = space->t[1];
+    set_excess(&space->plane[p->plane], a, of_a);
+    set_excess(&space->plane[p->plane], b, of_b);
+    open_numbers(p);
+    // b's excess times A, less a's, which is negative, times B: on the plane, with a positive last number
+    for (int k = 0; k < 3; k++) {
+        mpz_mul(p->x[k], of_b, a->x[k]);
+        mpz_submul(p->x[k], of_a, b->x[k]);
+    }
+    mpz_mul(p->w, of_b, a->w);
+    mpz_submul(p->w, of_a, b->w);
+    close_numbers(space, p);
+    return p;
+}
+
+void pir_plan_excess(pir_plan_space *space, uint32_t half, uint32_t point, mpz_t ret_excess) {
+    set_excess(&space->plane[half >> 1], pir_plan_point_exact(space, point), ret_excess);
     if (half & 1)
         mpz_neg(ret_excess, ret_excess);
 }
@@ -246,17 +284,27 @@ uint32_t pir_plan_point_between(pir_plan_space *space, uint32_t plane, uint32_t 
     if (!p)
         return 0;
     const pir_plan_point *a = &space->point[below], *b = &space->point[above];
-    mpz_ptr of_a = space->t[0], of_b = space->t[1];
-    pir_plan_excess(space, plane << 1, below, of_a);
-    pir_plan_excess(space, plane << 1, above, of_b);
-    // b's excess times A, less a's, which is negative, times B: on the plane, with a positive last number
+    const uint16_t depth = a->depth > b->depth ? a->depth : b->depth;
+    double of_a, of_b;
+    const double at_a = pir_plan_value(space, plane, below, &of_a), at_b = pir_plan_value(space, plane, above, &of_b);
+    const double whole = at_b - at_a, part = 2 * (of_a + of_b) / whole;
+    double size = 0, way = 0;
+    p->plane = plane;
+    p->end[0] = below;
+    p->end[1] = above;
     for (int k = 0; k < 3; k++) {
-        mpz_mul(p->x[k], of_b, a->x[k]);
-        mpz_submul(p->x[k], of_a, b->x[k]);
+        p->at[k] = (at_b * a->at[k] - at_a * b->at[k]) / whole;
+        size = fmax(size, fmax(fabs(a->at[k]), fabs(b->at[k])));
+        way = fmax(way, fabs(a->at[k] - b->at[k]));
     }
-    mpz_mul(p->w, of_b, a->w);
-    mpz_submul(p->w, of_a, b->w);
-    return close_point(space, p);
+    p->room = (fmax(a->room, b->room) + way * part) * (1 + 0x1p-12) + size * 0x1p-46;
+    p->depth = (uint16_t)(depth + 1);
+    // ends that are exact from now on end what stands on each other
+    if (!(at_a < 0 && at_b > 0 && part < WELL_POSED && depth < MOST_DEPTH && isfinite(p->room))) {
+        p->depth = 0;
+        pir_plan_point_exact(space, space->point_count - 1);
+    }
+    return space->point_count - 1;
 }
 
 uint32_t pir_plan_point_mean(pir_plan_space *space, const uint32_t *points, uint32_t count) {
@@ -265,8 +313,9 @@ uint32_t pir_plan_point_mean(pir_plan_space *space, const uint32_t *points, uint
     for (int k = 0; k < 3; k++) {
         mpq_init(mean[k]);
         for (uint32_t i = 0; i < count; i++) {
-            mpz_set(mpq_numref(x), space->point[points[i]].x[k]);
-            mpz_set(mpq_denref(x), space->point[points[i]].w);
+            const pir_plan_point *p = pir_plan_point_exact(space, points[i]);
+            mpz_set(mpq_numref(x), p->x[k]);
+            mpz_set(mpq_denref(x), p->w);
             mpq_canonicalize(x);
             mpq_add(mean[k], mean[k], x);
         }

@@ -6,10 +6,17 @@
  * one number. A half-space is twice a plane's number, plus 1 where it is turned: its points have n·x ≤ d, turned
  * n·x ≥ d. A point is x/w with coprime integers, w > 0. Planes and points never change once they are made.
  *
- * Doubles: those of a plane are n and d over one power of two, each within 2^-52 of the exact one, relatively; those
- * of a point within 2^-50. Then of n·x − d each product is within 2^-49.4 of its own size, and sums add three
- * roundings: PIR_PLAN_ERROR, 2^-48 of the sum of sizes, is a bound, with PIR_PLAN_TINY times sizes of coordinates for
- * what underflows. Values that are not finite fail both comparisons, and integers decide.
+ * Doubles: those of a plane are n and d over one power of two, each within 2^-52 of the exact one, relatively; those of
+ * a point within 2^-50, and `room` more. Then of n·x − d each product is within 2^-49.4 of its own size, and sums
+ * add three roundings: PIR_PLAN_ERROR, 2^-48 of the sum of sizes, is a bound, with n times room, and PIR_PLAN_TINY
+ * times sizes of coordinates for what underflows. Values that are not finite fail both comparisons, and integers
+ * decide.
+ *
+ * A point where a segment meets a plane is made in doubles alone, with the room that its ends and the signs leave it:
+ * of x = (s_b·a − s_a·b) / (s_b − s_a), where s are n·x − d within e, that is at most the greater room of the
+ * ends, 2·(e_a + e_b) / (s_b − s_a) of the way from a to b, and 2^-47 of sizes. Its integers are made when they are
+ * asked for; then it has no room. Where e are not small beside s, or many such points stand on each other, they are
+ * made at once.
  *
  * Failures stay in `status`. The limit counts blocks of the allocator and the limbs of points.
  */
@@ -35,8 +42,11 @@ typedef struct pir_plan_plane {
 } pir_plan_plane;
 
 typedef struct pir_plan_point {
-    mpz_t x[3], w;
-    double at[3];
+    mpz_t x[3], w; /* where it is exact */
+    double at[3], room;
+    uint32_t plane, end[2]; /* where it is not: where the segment between the ends meets a plane */
+    uint16_t depth;         /* of such points that stand on each other */
+    bool is_exact;
 } pir_plan_point;
 
 typedef struct pir_plan_space {
@@ -74,22 +84,33 @@ uint32_t pir_plan_point_between(pir_plan_space *space, uint32_t plane, uint32_t 
 /* The middle of points, as their mean. */
 uint32_t pir_plan_point_mean(pir_plan_space *space, const uint32_t *points, uint32_t count);
 
+/* The point with its integers. */
+const pir_plan_point *pir_plan_point_exact(pir_plan_space *space, uint32_t point);
+
 /* n·x − d times w, exactly, for a half-space: below 0 within it. */
-void pir_plan_excess(const pir_plan_space *space, uint32_t half, uint32_t point, mpz_t ret_excess);
+void pir_plan_excess(pir_plan_space *space, uint32_t half, uint32_t point, mpz_t ret_excess);
 
 /* The sign of n·x − d by integers. */
 int pir_plan_exact_side(pir_plan_space *space, uint32_t plane, uint32_t point);
 
-/* The sign of n·x − d. */
-static inline int pir_plan_plane_side(pir_plan_space *space, uint32_t plane, uint32_t point) {
+/* n·x − d in doubles, and how far from it the exact one may be. */
+static inline double pir_plan_value(const pir_plan_space *space, uint32_t plane, uint32_t point, double *ret_error) {
     const pir_plan_plane *p = &space->plane[plane];
     const double *x = space->point[point].at;
-    const double u = p->a[0] * x[0], v = p->a[1] * x[1], w = p->a[2] * x[2], s = u + v + w - p->b;
+    const double u = p->a[0] * x[0], v = p->a[1] * x[1], w = p->a[2] * x[2];
     const double tiny = (1 + fabs(x[0]) + fabs(x[1]) + fabs(x[2])) * PIR_PLAN_TINY;
-    const double bound = (fabs(u) + fabs(v) + fabs(w) + fabs(p->b)) * PIR_PLAN_ERROR + tiny;
-    if (s > bound)
+    *ret_error = (fabs(u) + fabs(v) + fabs(w) + fabs(p->b)) * PIR_PLAN_ERROR + tiny +
+                 (fabs(p->a[0]) + fabs(p->a[1]) + fabs(p->a[2])) * space->point[point].room;
+    return u + v + w - p->b;
+}
+
+/* The sign of n·x − d. */
+static inline int pir_plan_plane_side(pir_plan_space *space, uint32_t plane, uint32_t point) {
+    double error;
+    const double s = pir_plan_value(space, plane, point, &error);
+    if (s > error)
         return 1;
-    if (s < -bound)
+    if (s < -error)
         return -1;
     return pir_plan_exact_side(space, plane, point);
 }

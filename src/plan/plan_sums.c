@@ -41,40 +41,29 @@ void pir_plan_pieces_finish(pir_plan_space *space, pir_plan_pieces *pieces) {
 
 /* The half-space of a facet with these corners, counter-clockwise from outside, strictly convex. */
 static uint32_t half_of(pir_plan_space *space, const uint32_t corner[3]) {
-    mpq_t x[3][3], n[3], d, t;
-    mpq_inits(d, t, NULL);
-    for (int k = 0; k < 3; k++) {
-        mpq_init(n[k]);
-        for (int i = 0; i < 3; i++) {
-            mpq_init(x[i][k]);
-            mpz_set(mpq_numref(x[i][k]), space->point[corner[i]].x[k]);
-            mpz_set(mpq_denref(x[i][k]), space->point[corner[i]].w);
-            mpq_canonicalize(x[i][k]);
-            if (i > 0)
-                mpq_sub(x[i][k], x[i][k], x[0][k]);
+    const pir_plan_point *x[3];
+    mpz_t way[2][3];
+    mpz_ptr d = space->t[3];
+    for (int i = 0; i < 3; i++)
+        x[i] = pir_plan_point_exact(space, corner[i]);
+    // ways times both last numbers, which are positive
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            mpz_init(way[i][k]);
+            mpz_mul(way[i][k], x[i + 1]->x[k], x[0]->w);
+            mpz_submul(way[i][k], x[0]->x[k], x[i + 1]->w);
         }
-    }
-    mpz_set_ui(space->t[3], 1);
+    mpz_set_ui(d, 0);
     for (int k = 0; k < 3; k++) {
-        mpq_mul(n[k], x[1][(k + 1) % 3], x[2][(k + 2) % 3]);
-        mpq_mul(t, x[1][(k + 2) % 3], x[2][(k + 1) % 3]);
-        mpq_sub(n[k], n[k], t);
-        mpq_mul(t, n[k], x[0][k]);
-        mpq_add(d, d, t);
-        mpz_lcm(space->t[3], space->t[3], mpq_denref(n[k]));
+        mpz_ptr n = space->t[k];
+        mpz_mul(n, way[0][(k + 1) % 3], way[1][(k + 2) % 3]);
+        mpz_submul(n, way[0][(k + 2) % 3], way[1][(k + 1) % 3]);
+        mpz_addmul(d, n, x[0]->x[k]);
+        mpz_mul(n, n, x[0]->w);
     }
-    mpz_lcm(space->t[3], space->t[3], mpq_denref(d));
-    for (int k = 0; k < 3; k++) {
-        mpz_divexact(space->t[k], space->t[3], mpq_denref(n[k]));
-        mpz_mul(space->t[k], space->t[k], mpq_numref(n[k]));
-    }
-    mpz_divexact(space->t[3], space->t[3], mpq_denref(d));
-    mpz_mul(space->t[3], space->t[3], mpq_numref(d));
-    const uint32_t half = pir_plan_half(space, space->t, space->t[3]);
     for (int k = 0; k < 3; k++)
-        mpq_clears(x[0][k], x[1][k], x[2][k], n[k], NULL);
-    mpq_clears(d, t, NULL);
-    return half;
+        mpz_clears(way[0][k], way[1][k], NULL);
+    return pir_plan_half(space, space->t, d);
 }
 
 static pir_status add_mesh(pir_plan_space *space, const pir_mesh *mesh, pir_plan_sums *sums, pir_plan_sum *sum) {

@@ -147,6 +147,9 @@ void pir_plan_way_make(pir_plan_cutter *cutter, const pir_plan_sums *sums, const
         before = way->count;
         shorten(space, sums, tree->open, way);
     }
+    // readers of the way ask for integers
+    for (uint32_t i = 0; i < way->count && space->status == PIR_OK; i++)
+        pir_plan_point_exact(space, way->point[i]);
     for (uint32_t i = 0; i + 1 < way->count && space->status == PIR_OK; i++)
         if (!is_free(space, sums, way->point[i], way->point[i + 1], tree->open))
             give_up(space);
