@@ -5,10 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MARGIN 0x1p-28 /* of the size: how far outer pieces are grown */
-#define KEPT   0x1p-42 /* of the size: how far inner pieces stay within half-spaces */
-#define SAME   0x1p-40 /* half-spaces that differ by less are one */
-#define ROOM   0x1p-14
+#define GRID_BITS  24
+#define KEPT       0x1p-22 /* of the size: how far points of inner pieces stay within half-spaces, unrounded */
+#define MARGIN     0x1p-18 /* by which outer pieces are grown */
+#define ROOM       0x1p-14 /* of the size */
+#define EDGE_PARTS 2
 
 #define MOST_FORMS (PIR_PLAN_TURNS * (PIR_PLAN_TURNS + 1) / 2)
 
@@ -83,186 +84,151 @@ static pir_vec3 middle_of(const pir_polytope *piece) {
     return mean;
 }
 
-/* Half-spaces n·x ≤ d of unit normals. */
+/* Half-spaces n·x ≤ d of unit normals, of all facets over a set of rotations. */
 struct halves {
     pir_vec3 *n;
     double *d;
     size_t count;
 };
 
-/* Facets of a piece over a set of rotations. */
-struct turned_facets {
-    const pir_polytope *piece;
-    struct forms forms;
-    struct halves all;    /* those of all forms, in the order of facets */
-    struct halves chosen; /* those whose corners are looked for */
-    uint32_t *corner;     /* of the facet at hand */
-    pir_vec3 middle;      /* a point within, turned */
-    double size;
-};
-
-static void add_half(struct halves *halves, pir_vec3 n, double d) {
-    const double length = length_of(n);
-    halves->n[halves->count] = times(1 / length, n);
-    halves->d[halves->count++] = d / length;
-}
-
-/* All half-spaces of an arc's facet, but for those that are about the one before. */
-static void choose_all(struct turned_facets *f, size_t first) {
-    struct halves *to = &f->chosen;
-    for (size_t i = first; i < f->all.count; i++) {
-        const size_t last = to->count - 1;
-        if (i > first && length_of(sum_of(to->n[last], -1, f->all.n[i])) < SAME) {
-            to->d[last] = fmin(to->d[last], f->all.d[i]);
-            continue;
+static void list_halves(const pir_polytope *piece, const struct forms *forms, uint32_t *corner, struct halves *halves) {
+    for (uint32_t i = 0; i < pir_polytope_facet_count(piece); i++) {
+        const pir_vec3 n = pir_polytope_normal(piece, i);
+        pir_polytope_facet(piece, i, corner);
+        const double d = dot(n, pir_polytope_vertex(piece, corner[0]));
+        for (int k = 0; k < forms->count; k++) {
+            const pir_vec3 to = turned(forms, k, n);
+            const double length = length_of(to);
+            halves->n[halves->count] = times(1 / length, to);
+            halves->d[halves->count++] = d / length;
         }
-        to->n[to->count] = f->all.n[i];
-        to->d[to->count++] = f->all.d[i];
     }
 }
 
-/* One half-space for a facet of so many corners: that at the middle, moved in. */
-static void choose_one(struct turned_facets *f, pir_vec3 n, double d, uint32_t corners, size_t first) {
-    const int middle = f->forms.count;
-    double most = 0;
-    for (uint32_t c = 0; c < corners; c++) {
-        const pir_vec3 x = turned(&f->forms, middle, pir_polytope_vertex(f->piece, f->corner[c]));
-        for (size_t i = first; i < f->all.count; i++)
-            most = fmax(most, dot(f->all.n[i], x) - f->all.d[i]);
+/* Corners, and points of edges between them, at the middle rotation. */
+static size_t list_points(const pir_polytope *piece, const struct forms *forms, uint32_t *corner, pir_vec3 *x) {
+    const int middle = forms->count;
+    size_t count = 0;
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++)
+        x[count++] = turned(forms, middle, pir_polytope_vertex(piece, v));
+    for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
+        const uint32_t size = pir_polytope_facet_size(piece, f);
+        pir_polytope_facet(piece, f, corner);
+        for (uint32_t i = 0; i < size; i++) {
+            const uint32_t a = corner[i], b = corner[(i + 1) % size];
+            for (int part = 1; part < EDGE_PARTS && a < b; part++)
+                x[count++] = sum_of(times((double)part / EDGE_PARTS, x[a]), 1 - (double)part / EDGE_PARTS, x[b]);
+        }
     }
-    add_half(&f->chosen, turned(&f->forms, middle, n), d);
-    f->chosen.d[f->chosen.count - 1] -= most;
+    return count;
 }
 
-static void list_halves(struct turned_facets *f) {
-    for (uint32_t i = 0; i < pir_polytope_facet_count(f->piece); i++) {
-        const pir_vec3 n = pir_polytope_normal(f->piece, i);
-        const uint32_t corners = pir_polytope_facet_size(f->piece, i);
-        const size_t first = f->all.count;
-        pir_polytope_facet(f->piece, i, f->corner);
-        const double d = dot(n, pir_polytope_vertex(f->piece, f->corner[0]));
-        for (int k = 0; k < f->forms.count; k++)
-            add_half(&f->all, turned(&f->forms, k, n), d);
-        if (f->forms.count > 3)
-            choose_one(f, n, d, corners, first);
-        else
-            choose_all(f, first);
-    }
-}
-
-/* How much of the way from the middle to x keeps all half-spaces; 0 where the middle itself has no room. */
-static double part_within(const struct turned_facets *f, pir_vec3 x) {
-    const pir_vec3 way = sum_of(x, -1, f->middle);
+/* How much of the way from a point within to another keeps all half-spaces; 0 where the first itself has no room. */
+static double part_within(const struct halves *halves, pir_vec3 middle, double size, pir_vec3 way) {
     double part = 1;
-    for (size_t i = 0; i < f->all.count; i++) {
-        const double room = f->all.d[i] - dot(f->all.n[i], f->middle) - KEPT * f->size, need = dot(f->all.n[i], way);
-        if (!(room > ROOM * f->size))
+    for (size_t i = 0; i < halves->count; i++) {
+        const double room = halves->d[i] - dot(halves->n[i], middle) - KEPT * size, need = dot(halves->n[i], way);
+        if (!(room > ROOM * size))
             return 0;
-        if (need > part * room)
-            part = 0.5 * (room / need) < part ? fmin(part, room / need) : part;
+        if (need * part > room)
+            part = room / need;
     }
     return part;
 }
 
-/* Corners of what the chosen half-spaces leave, as the facets of the hull of n / (d − n·middle). */
-static pir_status corners_of(const struct turned_facets *f, pir_vec3 **ret_x, size_t *ret_count) {
-    pir_vec3 *dual = calloc(f->chosen.count, sizeof *dual);
-    pir_polytope *hull = NULL;
-    pir_status status = dual ? PIR_OK : PIR_ERR_MEMORY;
-    bool has_room = true;
-    for (size_t i = 0; i < f->chosen.count && status == PIR_OK && has_room; i++) {
-        const double room = f->chosen.d[i] - dot(f->chosen.n[i], f->middle);
-        has_room = room > ROOM * f->size;
-        dual[i] = times(f->size / room, f->chosen.n[i]);
-    }
-    if (status == PIR_OK && has_room)
-        status = pir_polytope_create(dual, f->chosen.count, NULL, &hull);
-    if (hull) {
-        uint32_t *corner = calloc(pir_polytope_vertex_count(hull), sizeof *corner);
-        *ret_x = calloc(pir_polytope_facet_count(hull), sizeof **ret_x);
-        status = corner && *ret_x ? PIR_OK : PIR_ERR_MEMORY;
-        for (uint32_t i = 0; i < pir_polytope_facet_count(hull) && status == PIR_OK; i++) {
-            const pir_vec3 n = pir_polytope_normal(hull, i);
-            pir_polytope_facet(hull, i, corner);
-            const double d = dot(n, pir_polytope_vertex(hull, corner[0]));
-            if (d > 0)
-                (*ret_x)[(*ret_count)++] = sum_of(f->middle, f->size / d, n);
-        }
-        free(corner);
-    }
-    pir_polytope_release(hull);
-    free(dual);
-    return status == PIR_ERR_MEMORY ? status : PIR_OK;
+static pir_vec3 rounded(pir_vec3 x, double grid) {
+    return (pir_vec3){rint(x.x / grid) * grid, rint(x.y / grid) * grid, rint(x.z / grid) * grid};
 }
 
-static pir_status make_within(struct turned_facets *f, pir_polytope **ret_inner) {
-    pir_vec3 *x = NULL;
-    size_t count = 0;
-    list_halves(f);
-    pir_status status = corners_of(f, &x, &count);
-    bool has_room = count > 3;
-    for (size_t i = 0; i < count && status == PIR_OK && has_room; i++) {
-        const double part = part_within(f, x[i]);
-        has_room = part > 0;
-        x[i] = sum_of(f->middle, part, sum_of(x[i], -1, f->middle));
-    }
-    if (status == PIR_OK && has_room)
-        status = pir_polytope_create(x, count, NULL, ret_inner);
-    free(x);
-    // corners that are flat leave no inside
-    return status == PIR_ERR_MEMORY ? status : PIR_OK;
-}
-
-pir_status pir_plan_piece_within(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_inner) {
-    struct turned_facets f = {.piece = piece, .forms = forms_of(turns), .size = size_of(piece)};
-    const size_t most = (size_t)f.forms.count * pir_polytope_facet_count(piece);
+static pir_status piece_within(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_inner) {
+    const struct forms forms = forms_of(turns);
+    const double size = size_of(piece), grid = ldexp(1, ilogb(size) - GRID_BITS);
+    const pir_vec3 middle = turned(&forms, forms.count, middle_of(piece));
+    const size_t most = (size_t)forms.count * pir_polytope_facet_count(piece);
+    const size_t points = pir_polytope_vertex_count(piece) + (EDGE_PARTS - 1) * (size_t)pir_polytope_edge_count(piece);
+    struct halves halves = {calloc(most, sizeof *halves.n), calloc(most, sizeof *halves.d), 0};
+    uint32_t *corner = calloc(pir_polytope_vertex_count(piece), sizeof *corner);
+    pir_vec3 *x = calloc(points, sizeof *x);
+    pir_status status = halves.n && halves.d && corner && x ? PIR_OK : PIR_ERR_MEMORY;
     *ret_inner = NULL;
-    f.middle = turned(&f.forms, f.forms.count, middle_of(piece));
-    f.all = (struct halves){calloc(most, sizeof *f.all.n), calloc(most, sizeof *f.all.d), 0};
-    f.chosen = (struct halves){calloc(most, sizeof *f.all.n), calloc(most, sizeof *f.all.d), 0};
-    f.corner = calloc(pir_polytope_vertex_count(piece), sizeof *f.corner);
-    const bool has_memory = f.all.n && f.all.d && f.chosen.n && f.chosen.d && f.corner;
-    const pir_status status = has_memory ? make_within(&f, ret_inner) : PIR_ERR_MEMORY;
-    free(f.corner);
-    free(f.chosen.d);
-    free(f.chosen.n);
-    free(f.all.d);
-    free(f.all.n);
+    if (status == PIR_OK) {
+        list_halves(piece, &forms, corner, &halves);
+        const size_t count = list_points(piece, &forms, corner, x);
+        bool has_room = true;
+        for (size_t i = 0; i < count && has_room; i++) {
+            const pir_vec3 way = sum_of(x[i], -1, middle);
+            const double part = part_within(&halves, middle, size, way);
+            has_room = part > 0;
+            x[i] = rounded(sum_of(middle, part, way), grid);
+        }
+        // flat ones have no inside
+        if (has_room && pir_polytope_create(x, count, NULL, ret_inner) == PIR_ERR_MEMORY)
+            status = PIR_ERR_MEMORY;
+    }
+    free(x);
+    free(corner);
+    free(halves.d);
+    free(halves.n);
     return status;
 }
 
-/* Whether the piece has a ball about its middle, which it then has, turned, about the turned middle. */
-static bool is_thick(const pir_polytope *piece, uint32_t *corner) {
+/* The radius of a ball about a piece's middle that it has; turned, it has one about the turned middle. */
+static double thickness_of(const pir_polytope *piece, uint32_t *corner) {
     const pir_vec3 own = middle_of(piece);
-    const double size = size_of(piece);
+    double least = INFINITY;
     for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
         pir_polytope_facet(piece, f, corner);
         const pir_vec3 way = sum_of(pir_polytope_vertex(piece, corner[0]), -1, own);
-        if (!(dot(pir_polytope_normal(piece, f), way) > ROOM * size))
-            return false;
+        least = fmin(least, dot(pir_polytope_normal(piece, f), way));
     }
-    return true;
+    return least;
 }
 
-pir_status pir_plan_piece_around(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_outer) {
+static pir_status piece_around(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_outer) {
     const uint32_t vertices = pir_polytope_vertex_count(piece);
     const struct forms forms = forms_of(turns);
     const size_t count = (size_t)forms.count * vertices;
     pir_vec3 *x = calloc(count, sizeof *x);
     uint32_t *corner = calloc(vertices, sizeof *corner);
     pir_status status = x && corner ? PIR_OK : PIR_ERR_MEMORY;
-    if (status == PIR_OK && !is_thick(piece, corner))
+    const double thickness = status == PIR_OK ? thickness_of(piece, corner) : 0;
+    if (status == PIR_OK && !(thickness > ROOM * size_of(piece)))
         status = PIR_ERR_LIMIT;
     if (status == PIR_OK) {
+        const double grid = ldexp(1, ilogb(thickness) - GRID_BITS + 4);
         for (uint32_t v = 0; v < vertices; v++)
             for (int k = 0; k < forms.count; k++)
                 x[(size_t)v * forms.count + k] = turned(&forms, k, pir_polytope_vertex(piece, v));
         const pir_vec3 middle = mean_of(x, count);
         for (size_t i = 0; i < count; i++)
-            x[i] = sum_of(middle, 1 + MARGIN, sum_of(x[i], -1, middle));
+            x[i] = rounded(sum_of(middle, 1 + MARGIN, sum_of(x[i], -1, middle)), grid);
         status = pir_polytope_create(x, count, NULL, ret_outer);
     }
     free(corner);
     free(x);
     return status;
+}
+
+pir_status pir_plan_pieces_over(const pir_plan_pieces *robot, const pir_plan_turns *turns, bool outer,
+                                pir_plan_pieces *ret_pieces) {
+    *ret_pieces = (pir_plan_pieces){.at = calloc(robot->count, sizeof *ret_pieces->at),
+                                    .body = calloc(robot->count, sizeof *ret_pieces->body)};
+    pir_status status = ret_pieces->at && ret_pieces->body ? PIR_OK : PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < robot->count && status == PIR_OK; i++) {
+        pir_polytope *made = NULL;
+        status = outer ? piece_around(robot->at[i], turns, &made) : piece_within(robot->at[i], turns, &made);
+        if (made) {
+            ret_pieces->body[ret_pieces->count] = i;
+            ret_pieces->at[ret_pieces->count++] = made;
+        }
+    }
+    return status;
+}
+
+void pir_plan_pieces_over_free(pir_plan_pieces *pieces) {
+    for (uint32_t i = 0; i < pieces->count; i++)
+        pir_polytope_release(pieces->at[i]);
+    free(pieces->at);
+    free(pieces->body);
+    *pieces = (pir_plan_pieces){0};
 }

@@ -67,18 +67,7 @@ static pir_status add_sums(struct layers *l, uint32_t arc) {
     const double ends[2] = {angle_at(l, arc), angle_at(l, arc + 1)};
     const pir_plan_turns turn = {{turn_by(l, ends[0]), turn_by(l, ends[1])}, ends[0] < ends[1] ? 2 : 1};
     pir_plan_pieces *turned = &l->turned[arc];
-    turned->at = calloc(robot->count, sizeof *turned->at);
-    turned->body = calloc(robot->count, sizeof *turned->body);
-    pir_status status = turned->at && turned->body ? PIR_OK : PIR_ERR_MEMORY;
-    for (uint32_t i = 0; i < robot->count && status == PIR_OK; i++) {
-        pir_polytope *made = NULL;
-        status = l->outer ? pir_plan_piece_around(robot->at[i], &turn, &made)
-                          : pir_plan_piece_within(robot->at[i], &turn, &made);
-        if (made) {
-            turned->body[turned->count] = i;
-            turned->at[turned->count++] = made;
-        }
-    }
+    pir_status status = pir_plan_pieces_over(robot, &turn, l->outer, turned);
     const pir_quat none = {0, 0, 0, 1};
     if (status == PIR_OK && turned->count > 0)
         status = pir_plan_sums_make(&l->space, turned, l->question->obstacles, none, &l->sums[arc]);
@@ -87,7 +76,7 @@ static pir_status add_sums(struct layers *l, uint32_t arc) {
 
 static pir_status add_arc(struct layers *l, uint32_t arc) {
     pir_plan_tree *tree = &l->tree[arc];
-    pir_plan_joints joints = {0};
+    pir_plan_joints joints = {.without_doors = !l->outer};
     pir_status status = add_sums(l, arc);
     if (status != PIR_OK)
         return status;
@@ -126,7 +115,7 @@ static void join_across(struct layers *l, uint32_t a, uint32_t i, uint32_t b, ui
     pir_plan_cell common;
     pir_plan_cell_common(&l->cutter, own, other, &common);
     if (l->space.status == PIR_OK && common.points >= (l->outer ? 4u : 1u)) {
-        const uint32_t door = pir_plan_point_mean(&l->space, common.point, common.points);
+        const uint32_t door = l->outer ? pir_plan_point_mean(&l->space, common.point, common.points) : PIR_PLAN_NONE;
         if (!l->outer || (is_free(l, a, door) && is_free(l, b, door)))
             add_link(l, left, right, door);
     }
@@ -234,12 +223,8 @@ static void finish(struct layers *l) {
     }
     pir_plan_free(&l->space, l->link, l->link_room, sizeof *l->link);
     pir_plan_free(&l->space, l->root, l->root_room, sizeof *l->root);
-    for (uint32_t a = 0; l->turned && a < l->arcs; a++) {
-        for (uint32_t i = 0; i < l->turned[a].count; i++)
-            pir_polytope_release(l->turned[a].at[i]);
-        free(l->turned[a].at);
-        free(l->turned[a].body);
-    }
+    for (uint32_t a = 0; l->turned && a < l->arcs; a++)
+        pir_plan_pieces_over_free(&l->turned[a]);
     free(l->turned);
     free(l->first);
     free(l->sums);
