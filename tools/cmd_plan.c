@@ -25,8 +25,10 @@ struct plan_run {
     size_t count, room, of_robot;
     pir_path_plan_input input;
     pir_path_plan_options options;
-    pir_turn_plan_input turns; /* with --axis: what of the question is its own */
-    uint32_t arcs;             /* at most; 0 for the default */
+    pir_turn_plan_input turns;    /* with --axis: what of the question is its own */
+    uint32_t arcs;                /* at most; 0 for the default */
+    pir_rigid_plan_input motions; /* without either: what of the question is its own */
+    pir_rigid_plan_options how;
     pir_report report;
     double seconds;
 };
@@ -104,6 +106,32 @@ static bool read_turns(struct plan_run *run, const double bounds[6]) {
     return target_check(args, "-o", NULL);
 }
 
+/* The question with all turns. */
+static bool read_motions(struct plan_run *run, const double bounds[6]) {
+    const struct args *args = run->args;
+    pir_rigid_plan_input *in = &run->motions;
+    uint64_t boxes = 0, threads = 1;
+    if (args_has(args, "--open")) {
+        complain("plan: --open goes with --translate-only alone");
+        return false;
+    }
+    if (!args_has(args, "--bounds")) {
+        complain("plan: --bounds is missing, which all but --translate-only needs");
+        return false;
+    }
+    if (!args_count(args, "--boxes", 32, UINT32_MAX / 16, &boxes) || !args_count(args, "--threads", 1, 64, &threads) ||
+        !read_place(args, "--from", &in->from.rotation, &in->from.translation) ||
+        !read_place(args, "--to", &in->to.rotation, &in->to.translation))
+        return false;
+    in->low = (pir_vec3){bounds[0], bounds[1], bounds[2]};
+    in->high = (pir_vec3){bounds[3], bounds[4], bounds[5]};
+    run->how = pir_rigid_plan_options_default();
+    run->how.threads = (uint32_t)threads;
+    run->how.boxes = boxes > 0 ? (uint32_t)boxes : run->how.boxes;
+    run->how.parts = run->options.parts > 0 ? run->options.parts : run->how.parts;
+    return target_check(args, "-o", NULL);
+}
+
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
     pir_quat end;
@@ -115,8 +143,14 @@ static bool read_options(struct plan_run *run) {
     run->options.parts = (uint32_t)parts;
     if (args_has(args, "--axis"))
         return read_turns(run, bounds);
-    if (!args_has(args, "--translate-only") || args_has(args, "--arcs")) {
-        complain("plan: say --translate-only, or --axis for turns about one, with --arcs if at all");
+    if (args_has(args, "--arcs")) {
+        complain("plan: --arcs goes with --axis alone");
+        return false;
+    }
+    if (!args_has(args, "--translate-only"))
+        return read_motions(run, bounds);
+    if (args_has(args, "--boxes") || args_has(args, "--threads")) {
+        complain("plan: --boxes and --threads go with neither --translate-only nor --axis");
         return false;
     }
     if (!read_place(args, "--from", &run->input.rotation, &run->input.from) ||
@@ -339,6 +373,79 @@ static int plan_turns(struct plan_run *run, struct output_file *file) {
     return result;
 }
 
+/* --- all turns --- */
+
+static bool print_motions_json(FILE *file, const struct plan_run *run, const pir_rigid_plan *plan,
+                               const pir_rigid_plan_info *info) {
+    struct json json = json_new();
+    json_add_text(&json, json.root, "answer", turn_answer_name(info->answer));
+    cJSON *path = info->answer == PIR_TURN_PLAN_PATH ? json_add_array(&json, json.root, "path") : NULL;
+    for (uint32_t i = 0; i < info->steps; i++) {
+        pir_pose pose;
+        pir_rigid_plan_get_step(plan, i, &pose);
+        const pir_vec3 x = pose.translation;
+        const pir_quat q = pose.rotation;
+        cJSON *one = json_add_object(&json, path, NULL);
+        json_add_numbers(&json, one, "at", (const double[]){x.x, x.y, x.z}, 3);
+        json_add_numbers(&json, one, "quat", (const double[]){q.x, q.y, q.z, q.w}, 4);
+    }
+    json_add_count(&json, json.root, "robot_pieces", info->robot_pieces);
+    json_add_count(&json, json.root, "obstacle_pieces", info->obstacle_pieces);
+    json_add_count(&json, json.root, "boxes", info->boxes);
+    json_add_count(&json, json.root, "divided", info->divided);
+    json_add_count(&json, json.root, "parts", info->parts);
+    json_add_number(&json, json.root, "seconds", run->seconds);
+    return json_print(&json, file);
+}
+
+static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_info *info) {
+    char time[TEXT_NUMBER];
+    text_time(run->seconds * 1e9, time);
+    say("%s, by any motion, for closed bodies\n", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_PATH)
+        say("  %-10s %" PRIu32 ", each a translation or a turn away; -o or --json tells them\n", "poses", info->steps);
+    say("  %-10s %" PRIu32 " of rotations, %" PRIu32 " more divided, %" PRIu64 " parts of translations\n", "boxes",
+        info->boxes, info->divided, info->parts);
+    say("  %-10s %s\n", "time", time);
+}
+
+/* Writes and tells what was decided; the proof, where there is one, stands in the file already. */
+static int tell_motions(struct plan_run *run, const pir_rigid_plan *plan, struct output_file *file) {
+    pir_rigid_plan_info info;
+    pir_rigid_plan_describe(plan, &info);
+    const bool is_kept = args_has(run->args, "-o");
+    if (is_kept && info.answer != PIR_TURN_PLAN_NO_PATH && !print_motions_json(file->stream, run, plan, &info))
+        return EXIT_BAD_INPUT;
+    if (is_kept && !output_commit(file))
+        return EXIT_BAD_INPUT;
+    if (args_has(run->args, "--json"))
+        return print_motions_json(stdout, run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
+    if (!target_is_stdout(run->args, "-o"))
+        print_motions_text(run, &info);
+    return EXIT_DONE;
+}
+
+/* Plans with neither --axis nor --translate-only. */
+static int plan_motions(struct plan_run *run, struct output_file *file) {
+    pir_rigid_plan *plan = NULL;
+    run->how.report = &run->report;
+    run->how.proof = args_has(run->args, "-o") ? file->stream : NULL;
+    run->motions.robot = run->input.robot;
+    run->motions.robot_count = run->input.robot_count;
+    run->motions.obstacles = run->input.obstacles;
+    run->motions.obstacle_count = run->input.obstacle_count;
+    const int64_t start = clock_now();
+    const pir_status status = pir_rigid_plan_create(&run->motions, &run->how, &plan);
+    run->seconds = (double)(clock_now() - start) / 1e9;
+    if (status != PIR_OK) {
+        complain_status("plan", status, &run->report);
+        return EXIT_BAD_INPUT;
+    }
+    const int result = tell_motions(run, plan, file);
+    pir_rigid_plan_destroy(plan);
+    return result;
+}
+
 SUBCOMMAND(plan) {
     struct plan_run run = {.args = args};
     struct output_file file = {0};
@@ -348,6 +455,8 @@ SUBCOMMAND(plan) {
     bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path));
     if (good && args_has(args, "--axis")) {
         result = plan_turns(&run, &file);
+    } else if (good && !args_has(args, "--translate-only")) {
+        result = plan_motions(&run, &file);
     } else if (good) {
         const int64_t start = clock_now();
         const pir_status status = pir_path_plan_translate(&run.input, &run.options, &plan);

@@ -26,7 +26,7 @@ struct example {
 };
 
 /* The most examples that a subcommand has, and the end of their list. */
-#define COMMAND_EXAMPLES 4
+#define COMMAND_EXAMPLES 5
 
 struct args;
 typedef int command_run(const struct args *args);

@@ -101,11 +101,13 @@ static const struct option plan_options[] = {
     {"--from", "x,y,z[,x,y,z,w]",
      "where the robot is: a translation and, unless it is not turned, a quaternion; with --axis x,y,z,DEGREES"},
     {"--to", "x,y,z[,x,y,z,w]", "where it is to be, turned likewise"},
-    {"--translate-only", NULL, "by translations alone, which is decided always"},
+    {"--translate-only", NULL, "by translations alone, which is decided always; without it and --axis, by any motion"},
     {"--axis", "x,y,z", "by translations, between --bounds, and turns about this axis through the robot's origin"},
     {"--arcs", "N", "with --axis: divide the full turn into N arcs at most, 8, 16, ... 65536 (1024)"},
+    {"--boxes", "N", "by any motion: divide all rotations into N boxes at most (65536)"},
+    {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
     {"--bounds", "x,y,z,x,y,z", "keep translations between these least and greatest ones (none)"},
-    {"--open", NULL, "bodies may touch: passages count that the robot fits exactly"},
+    {"--open", NULL, "with --translate-only: bodies may touch, so passages count that the robot fits exactly"},
     {"--budget", "N", "fail, or with --axis say unknown, where more than N parts of space are needed"},
     {"-o", "FILE", "write the path, or the proof that there is none, to FILE, JSON in rationals"},
     COMMON_OPTIONS,
@@ -464,20 +466,21 @@ const struct command command_table[] = {
         .required = 2,
         .summary = "whether a solid can be moved from one place to another between solids, with the proof",
         .details =
-            "By translations, at one rotation, or with turns about one axis. A folder of models, or an OBJ file of "
-            "several objects, is several "
-            "solids: those of ROBOT move together. The answer is exact, and without turns there is always one: a path "
-            "of straight motions, each proven free, or no path, with a division of space that proves it. With --axis "
-            "it is unknown where a passage is too narrow, or not narrow enough, for the arcs. Bodies are "
-            "closed and may not touch, unless --open. Without --bounds all of space is there. "
-            "check/plan.py, or check/turns.py with --axis, checks the file without the library; docs/plan.md has its "
-            "format.",
+            "By any motion, or with turns about one axis, or by translations at one rotation. A folder of models, or "
+            "an OBJ file of several objects, is several solids: those of ROBOT move together. The answer is proven: a "
+            "path, of which each motion is free, or no path, with a division of space that proves it. Without turns "
+            "there is always one; with turns it is unknown where a passage is too narrow, or not narrow enough, for "
+            "the boxes or arcs. Bodies are closed and may not touch, unless --open. Without --bounds, which turns "
+            "need, all of space is there. check/plan.py, check/turns.py with --axis, or check/motions.py checks the "
+            "file without the library; docs/plan.md has its format.",
         .options = plan_options,
         .examples = {{"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0", "round a body"},
                      {"plan shape:cube shape:gs4 --translate-only --from=-3,0,0 --to 3,0,0 -o plan.json",
                       "with what proves it"},
                      {"plan shape:cube shape:cube --axis 0,0,1 --bounds=-4,-4,-4,4,4,4 --from=-3,0,0 --to 3,0,0,90",
-                      "and a quarter turn"}},
+                      "and a quarter turn"},
+                     {"plan shape:cube shape:cube --bounds=-4,-4,-4,4,4,4 --from=-3,0,0 --to 3,0,0,1,1,0,1",
+                      "and any turn"}},
     },
     {
         .name = "simplify",

@@ -2,7 +2,7 @@
 /**
  * Plans: whether a body can be moved from one place to another between obstacles by translations alone, decided
  * always and exactly, with the path, or with what proves that there is none; and by translations with turns about one
- * axis, decided where the budget lasts (pir_turn_plan, at the end).
+ * axis (pir_turn_plan) or any turns (pir_rigid_plan, at the end), decided where the budget lasts.
  *
  * The robot P, at one rotation R, is at a translation t where the obstacles Q are met if t lies in one of the sums
  * Q_l ⊕ (−R·P_k) of convex pieces. Free are the translations within the bounds that lie in no sum: bodies may not
@@ -20,6 +20,7 @@
 #include <stdio.h>
 
 #include <pirouette/base.h>
+#include <pirouette/pose.h>
 #include <pirouette/solid.h>
 
 #ifdef __cplusplus
@@ -228,6 +229,93 @@ PIR_API void pir_turn_plan_describe(const pir_turn_plan *plan, pir_turn_plan_inf
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_turn_plan_get_step(const pir_turn_plan *plan, uint32_t index, pir_turn_plan_step *ret_step);
+
+/* --- translations and all turns --- */
+
+/** A plan with translations and turns about any axis. */
+typedef struct pir_rigid_plan pir_rigid_plan;
+
+/** How it is made. */
+typedef struct pir_rigid_plan_options {
+    size_t size;        /**< of this struct, which pir_rigid_plan_options_default sets (base.h) */
+    size_t memory;      /**< the most bytes that the division of one box of translations may hold */
+    pir_report *report; /**< NULL, or filled when the call fails */
+    FILE *proof;        /**< NULL, or where the proof goes that there is no path, as docs/plan.md has it */
+    uint32_t boxes;     /**< the most boxes that all rotations may be divided into, at least 32 */
+    uint32_t parts;     /**< the most parts that one box of translations may be divided into */
+    uint32_t threads;   /**< that the work is shared among, the caller's own included; the answer is the same */
+    uint32_t reserved;  /**< 0 */
+} pir_rigid_plan_options;
+
+/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread. O(1). */
+static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
+    const pir_rigid_plan_options options = {
+        sizeof(pir_rigid_plan_options), pir_solid_options_default().memory, NULL, NULL, 1u << 16, 1u << 22, 1, 0};
+    return options;
+}
+
+/** The question of a plan with all turns. Arrays and solids are borrowed for the call. Bodies are closed. */
+typedef struct pir_rigid_plan_input {
+    const pir_solid *const *robot; /**< P: solids that move together, in one frame; they may overlap */
+    size_t robot_count;
+    const pir_solid *const *obstacles; /**< Q, likewise */
+    size_t obstacle_count;
+    pir_vec3 low, high; /**< the bounds of the translation t; each low below its high */
+    pir_pose from, to;  /**< of P: it begins here, and is to go there */
+} pir_rigid_plan_input;
+
+/** The description of a plan with all turns. */
+typedef struct pir_rigid_plan_info {
+    pir_turn_plan_answer answer;
+    uint32_t steps;          /**< poses of the path; 0 where there is none */
+    uint32_t boxes, divided; /**< of rotations: those at the end, and those that were divided on the way */
+    uint64_t parts;          /**< of all boxes of translations that were divided */
+    uint32_t robot_pieces, obstacle_pieces;
+} pir_rigid_plan_info;
+
+/**
+ * Decides whether P can be moved from one pose to another, by any motion within bounds of its translation.
+ *
+ * input     the question.
+ * options   NULL for the defaults.
+ * ret_plan  to be freed with pir_rigid_plan_destroy; also where the answer is unknown.
+ *
+ * Rotations are divided into boxes, finer where the question needs it. What pieces within P at every rotation of a box
+ * block is blocked, so where free cells of all boxes leave the ends apart there is no path. A path is made of exact
+ * translations at single rotations, and of turns that pieces around P over the turn prove to be free. An answer other
+ * than unknown is proven, and of two questions that only differ in their budgets no two are answered otherwise.
+ *
+ * Cost: for each box that of pir_path_plan_translate twice. Where a gap is less than a passage needs by a part ε,
+ * boxes of size ε are needed where P nearly fits: in general O(ε^-3) of them.
+ *
+ * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a pose out of bounds or blocked), PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid),
+ * PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
+ *
+ * Source: cells of translations over cells of rotations, after Brooks and Lozano-Pérez 1985; boxes of the charts of
+ * unit quaternions, and turned vectors as means of polar forms, are this library's own.
+ */
+PIR_API pir_status pir_rigid_plan_create(const pir_rigid_plan_input *input, const pir_rigid_plan_options *options,
+                                         pir_rigid_plan **ret_plan);
+
+/** Frees; NULL is accepted. Cost: the time to free it. */
+PIR_API void pir_rigid_plan_destroy(pir_rigid_plan *plan);
+
+/** The description. O(1). */
+PIR_API void pir_rigid_plan_describe(const pir_rigid_plan *plan, pir_rigid_plan_info *ret_info);
+
+/**
+ * A pose of the path. The first is where it begins, the last where it ends. Between two the motion keeps the rotation
+ * and goes straight, or keeps the translation and turns by the lesser angle about one axis, as slerp does.
+ *
+ * index     below the count of steps.
+ * ret_pose  the pose; its quaternion is of any length.
+ *
+ * Cost: O(1).
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_rigid_plan_get_step(const pir_rigid_plan *plan, uint32_t index, pir_pose *ret_pose);
 
 #ifdef __cplusplus
 }

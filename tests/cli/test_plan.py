@@ -94,7 +94,6 @@ class Plan(PlanTest):
         self.bad("plan", bug, self.path / "none.off", *good[3:], "--to=20,20,20", says=("none.off",))
         self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
 
-
     def test_turns(self):
         """A bar and a plate with a slot: through, not, and files that say so."""
         bar = self.file("bar.obj", boxes(((-0.5, -2, -0.5), (0.5, 2, 0.5))))
@@ -123,6 +122,35 @@ class Plan(PlanTest):
         self.bad("plan", bar, plate, "--axis=0,0,0", *good[4:], says=("axis",))
         self.bad("plan", bar, plate, "--axis=0,0,1", "--from=0,0,0", *good[5:], says=("meets an obstacle",))
         self.bad("plan", bar, plate, "--translate-only", "--arcs=8", "--from=0,0,-3", "--to=0,0,3", says=("--arcs",))
+
+    def test_any_motion(self):
+        """A bar across a slot turns and goes through; a tetrahedron with a ball wider than the slot does not."""
+        walls = ((-9, -9, -0.5), (-1, 9, 0.5)), ((1, -9, -0.5), (9, 9, 0.5)), ((-1, -9, -0.5), (1, -1, 0.5)), \
+                ((-1, 1, -0.5), (1, 9, 0.5))
+        plate, proof = self.file("plate.obj", boxes(*walls)), self.path / "motions.json"
+        bar = self.file("bar.obj", boxes(((-2, -0.5, -0.5), (2, 0.5, 0.5))))
+        told = self.data("plan", bar, plate, "--bounds=-1,-1,-4,1,1,4", "--from=0,0,-3", "--to=0,0,3,0,1,0,0.5",
+                         "--threads=2", "-o", proof)
+        self.assertEqual((told["answer"], told["obstacle_pieces"]), ("path", 4))
+        self.assertEqual(json.loads(proof.read_text())["path"], told["path"])
+        self.assertEqual((told["path"][0]["at"], told["path"][-1]["at"]), ([0, 0, -3], [0, 0, 3]))
+        solid = self.file("solid.off", "OFF\n4 4 6\n9 9 9\n9 -9 -9\n-9 9 -9\n-9 -9 9\n"
+                          "3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n")
+        good = ["plan", solid, plate, "--from=0,0,-17", "--to=0,0,17"]
+        told = self.data(*good, "--bounds=-1,-1,-18,1,1,18", "-o", proof)
+        self.assertEqual((told["answer"], told["boxes"]), ("no path", 32))
+        run = subprocess.run([sys.executable, "-B", ROOT / "check" / "motions.py", proof], capture_output=True,
+                             text=True, check=False)
+        self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
+        self.bad(*good, says=("--bounds",))
+        good.append("--bounds=-1,-1,-18,1,1,18")
+        self.bad(*good, "--open", says=("--open",))
+        self.bad(*good, "--arcs=8", says=("--arcs",))
+        self.bad(*good, "--boxes=31", says=("--boxes",))
+        self.bad(*good, "--threads=0", says=("--threads",))
+        self.bad("plan", solid, plate, "--from=0,0,0", *good[4:], says=("from", "meets an obstacle"))
+        self.bad("plan", solid, plate, "--from=0,0,-17,0,0,0,0", *good[4:], says=("--from", "quaternion"))
+        self.bad(*good, "--translate-only", "--threads=2", says=("--threads",))
 
 
 class Proofs(PlanTest):

@@ -365,6 +365,21 @@ static pir_status ask_turn_plan(struct world *w, const void *options, pir_report
     return status;
 }
 
+static pir_status ask_rigid_plan(struct world *w, const void *options, pir_report *report, double *told) {
+    const pir_solid *const some[] = {w->solid};
+    const pir_rigid_plan_input input = {
+        some, 1, some, 1, {-9, -9, -9}, {9, 9, 9}, {{0, 0, 0, 1}, {-8, 0, 0}}, {{0, 0, 1, 1}, {8, 0, 0}}};
+    pir_rigid_plan *plan = NULL;
+    pir_rigid_plan_info info = {0};
+    (void)report;
+    const pir_status status = pir_rigid_plan_create(&input, options, &plan);
+    if (status == PIR_OK)
+        pir_rigid_plan_describe(plan, &info);
+    pir_rigid_plan_destroy(plan);
+    *told = (double)info.parts;
+    return status;
+}
+
 static pir_status ask_solid_certify_exact(struct world *w, const void *options, pir_report *report, double *told) {
     mpq_t added, lost;
     (void)report;
@@ -504,6 +519,7 @@ KIND(decompose, LACKS(decompose, method), LACKS(decompose, report), o->report = 
 KIND(solid_sum, LACKS(solid_sum, difference), LACKS(solid_sum, report), o->report = w->report, o->difference = true)
 KIND(path_plan, LACKS(path_plan, low), LACKS(path_plan, report), o->report = w->report, o->open = true)
 KIND(turn_plan, LACKS(turn_plan, arcs), LACKS(turn_plan, report), o->report = w->report, o->arcs = 9)
+KIND(rigid_plan, LACKS(rigid_plan, boxes), LACKS(rigid_plan, report), o->report = w->report, o->boxes = 9)
 KIND(trimesh, LACKS(trimesh, two_sided), 0, , o->two_sided = true)
 KIND(height, LACKS(height, two_sided), 0, , o->two_sided = true)
 KIND(trimesh_pair, 0, 0, , )
@@ -548,6 +564,7 @@ static const struct call {
     {"pir_clash_body_create", ask_clash_body_create, &solid_kind, false},
     {"pir_path_plan_translate", ask_path_plan, &path_plan_kind, false},
     {"pir_turn_plan_create", ask_turn_plan, &turn_plan_kind, false},
+    {"pir_rigid_plan_create", ask_rigid_plan, &rigid_plan_kind, false},
     {"pir_solid_certify_exact", ask_solid_certify_exact, &solid_kind, false},
     {"pir_trimesh_create", ask_trimesh_create, &trimesh_kind, true},
     {"pir_trimesh_read", ask_trimesh_read, &trimesh_kind, true},

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: MIT */
+/* See box_parts.h. */
+#include "plan/rigid/box_parts.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plan/rigid/point_sets.h"
+
+pir_status pir_box_division_make(const pir_rigid_question *question, const pir_plan_pieces *robot, bool with_doors,
+                                 pir_box_division *division) {
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    const pir_quat none = {0, 0, 0, 1};
+    memset(division, 0, sizeof *division);
+    pir_plan_space_init(&division->space, &allocator, question->memory);
+    division->cutter.space = &division->space;
+    memcpy(division->tree.low, question->low, sizeof question->low);
+    memcpy(division->tree.high, question->high, sizeof question->high);
+    pir_status status = division->space.status;
+    if (status == PIR_OK && robot->count > 0)
+        status = pir_plan_sums_make(&division->space, robot, question->obstacles, none, &division->sums);
+    if (status == PIR_OK) {
+        pir_plan_divide(&division->cutter, &division->sums, question->most_parts, &division->tree);
+        status = division->space.status;
+    }
+    if (status == PIR_OK) {
+        division->joints.without_doors = !with_doors;
+        pir_plan_join(&division->cutter, &division->tree, &division->joints);
+        status = division->space.status;
+    }
+    return status;
+}
+
+void pir_box_division_finish(pir_box_division *division) {
+    pir_plan_joints_finish(&division->space, &division->joints);
+    pir_plan_tree_finish(&division->space, &division->tree);
+    pir_plan_sums_finish(&division->space, &division->sums);
+    pir_plan_cutter_finish(&division->cutter);
+    pir_plan_space_finish(&division->space);
+}
+
+uint32_t pir_box_division_cell_at(pir_box_division *division, uint32_t point) {
+    if (division->space.status != PIR_OK ||
+        pir_plan_sums_at(&division->space, &division->sums, point, false) != PIR_PLAN_NONE)
+        return PIR_PLAN_NONE;
+    for (uint32_t i = 0; i < division->tree.cell_count; i++)
+        if (pir_plan_cell_has(&division->space, &division->tree.cell[i], point))
+            return i;
+    return PIR_PLAN_NONE;
+}
+
+/* Keeps a division's cells; parts are numbered by their first cells. */
+static pir_status keep(const pir_box_division *division, pir_box_parts *parts) {
+    const pir_plan_tree *tree = &division->tree;
+    uint32_t points = 0;
+    for (uint32_t i = 0; i < tree->cell_count; i++)
+        points += tree->cell[i].points;
+    parts->x = calloc(points > 0 ? points : 1, sizeof *parts->x);
+    parts->cell = calloc(tree->cell_count > 0 ? tree->cell_count : 1, sizeof *parts->cell);
+    parts->nodes = tree->node_count;
+    if (!parts->x || !parts->cell)
+        return PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < tree->cell_count; i++) {
+        const pir_plan_cell *from = &tree->cell[i];
+        pir_box_cell *to = &parts->cell[parts->cells++];
+        *to = (pir_box_cell){.first = parts->points, .points = from->points};
+        memcpy(to->low, from->low, sizeof to->low);
+        memcpy(to->high, from->high, sizeof to->high);
+        for (uint32_t v = 0; v < from->points; v++) {
+            const pir_plan_point *p = &division->space.point[from->point[v]];
+            memcpy(parts->x[parts->points++], p->at, sizeof *parts->x);
+            parts->room = fmax(parts->room, p->room);
+        }
+        to->part = parts->parts;
+        for (uint32_t k = 0; k < i && to->part == parts->parts; k++)
+            if (division->joints.root[k] == division->joints.root[i])
+                to->part = parts->cell[k].part;
+        parts->parts += to->part == parts->parts;
+    }
+    return PIR_OK;
+}
+
+pir_status pir_box_parts_make(const pir_rigid_question *question, const pir_plan_pieces *robot,
+                              pir_box_parts *ret_parts) {
+    pir_box_division division;
+    *ret_parts = (pir_box_parts){0};
+    pir_status status = pir_box_division_make(question, robot, false, &division);
+    if (status == PIR_OK)
+        status = keep(&division, ret_parts);
+    pir_box_division_finish(&division);
+    if (status != PIR_OK)
+        pir_box_parts_finish(ret_parts);
+    return status;
+}
+
+void pir_box_parts_finish(pir_box_parts *parts) {
+    free(parts->x);
+    free(parts->cell);
+    *parts = (pir_box_parts){0};
+}
+
+static const double (*points_of(const pir_box_parts *parts, const pir_box_cell *cell))[3] {
+    return (const double(*)[3])(parts->x + cell->first);
+}
+
+bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,
+                        const pir_box_cell *of_b) {
+    return pir_plan_boxes_meet(of_a->low, of_a->high, of_b->low, of_b->high) &&
+           !pir_points_apart(points_of(a, of_a), of_a->points, points_of(b, of_b), of_b->points, a->room + b->room);
+}
+
+bool pir_box_cell_has(const pir_box_parts *parts, const pir_box_cell *cell, const double x[3]) {
+    const double own[1][3] = {{x[0], x[1], x[2]}};
+    return pir_plan_boxes_meet(x, x, cell->low, cell->high) &&
+           !pir_points_apart(own, 1, points_of(parts, cell), cell->points, parts->room);
+}

@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The box of translations divided for one robot at one rotation, and what is kept of that.
+ *
+ * A division is exact, and large. Kept are the free cells, by their corners in doubles (plan_space.h has the errors),
+ * and which connected part of free space each is of. The same question gives the same division, cell for cell, so
+ * that paths and proofs make it again.
+ */
+#ifndef PIR_PLAN_RIGID_BOX_PARTS_H
+#define PIR_PLAN_RIGID_BOX_PARTS_H
+
+#include "plan/join.h"
+
+/* The question. Rotations and bounds are borrowed for as long as the plan is made. */
+typedef struct pir_rigid_question {
+    const pir_plan_pieces *robot, *obstacles;
+    double low[3], high[3]; /* bounds of translations */
+    double at[2][3];        /* translations: from, to */
+    pir_quat rotation[2];   /* likewise */
+    uint32_t most_boxes;    /* of rotations */
+    uint32_t most_parts;    /* of the boxes of one division */
+    size_t memory;          /* of one division */
+} pir_rigid_question;
+
+typedef struct pir_box_division {
+    pir_plan_space space;
+    pir_plan_cutter cutter;
+    pir_plan_sums sums;
+    pir_plan_tree tree;
+    pir_plan_joints joints;
+} pir_box_division;
+
+/* Divides the box for pieces, turned as they are. To be finished also where it fails. */
+pir_status pir_box_division_make(const pir_rigid_question *question, const pir_plan_pieces *robot, bool with_doors,
+                                 pir_box_division *division);
+void pir_box_division_finish(pir_box_division *division);
+
+/* The cell of a division that has a free point; PIR_PLAN_NONE where a sum has it. */
+uint32_t pir_box_division_cell_at(pir_box_division *division, uint32_t point);
+
+typedef struct pir_box_cell {
+    uint32_t first, points; /* among all points */
+    uint32_t part;
+    double low[3], high[3];
+} pir_box_cell;
+
+typedef struct pir_box_parts {
+    double (*x)[3], room; /* how far they may be from the exact ones, but for 2^-50 relatively */
+    pir_box_cell *cell;
+    uint32_t cells, points;
+    uint32_t parts; /* connected ones */
+    uint32_t nodes; /* of the division */
+} pir_box_parts;
+
+pir_status pir_box_parts_make(const pir_rigid_question *question, const pir_plan_pieces *robot,
+                              pir_box_parts *ret_parts);
+void pir_box_parts_finish(pir_box_parts *parts);
+
+/* Whether two cells may share a point: false is proven. */
+bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,
+                        const pir_box_cell *of_b);
+
+/* Whether a point may lie in a cell, likewise. */
+bool pir_box_cell_has(const pir_box_parts *parts, const pir_box_cell *cell, const double x[3]);
+
+#endif

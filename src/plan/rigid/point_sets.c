@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The nearest point of a hull to the origin, after Wolfe 1976 (Finding the nearest point in a polytope): a corral of at
+ * most four points whose affine hull has its nearest point within their hull; points are added that are nearer to the
+ * origin along it, and dropped where the affine nearest point is outside.
+ */
+#include "plan/rigid/point_sets.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STEPS  64
+#define MARGIN 0x1p-44
+#define CORRAL 4
+
+struct corral {
+    double x[CORRAL][3], weight[CORRAL];
+    int count;
+    double near[3]; /* Σ weight·x */
+};
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Weights of the affine hull's nearest point: of the sum 1, and all x alike along it. False where x are dependent. */
+static bool affine_nearest(const struct corral *c, double weight[CORRAL]) {
+    double m[CORRAL + 1][CORRAL + 2];
+    const int n = c->count + 1;
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k <= n; k++) {
+            const bool is_edge = i == c->count || k == c->count;
+            m[i][k] = k == n ? i == c->count : is_edge ? i != k : dot(c->x[i], c->x[k]);
+        }
+    for (int p = 0; p < n; p++) {
+        int best = p;
+        for (int i = p + 1; i < n; i++)
+            best = fabs(m[i][p]) > fabs(m[best][p]) ? i : best;
+        if (m[best][p] == 0)
+            return false;
+        for (int k = 0; k <= n; k++) {
+            const double swapped = m[p][k];
+            m[p][k] = m[best][k];
+            m[best][k] = swapped;
+        }
+        for (int i = 0; i < n; i++) {
+            const double by = i == p ? 0 : m[i][p] / m[p][p];
+            for (int k = p; k <= n; k++)
+                m[i][k] -= by * m[p][k];
+        }
+    }
+    for (int i = 0; i < c->count; i++)
+        weight[i] = m[i][n] / m[i][i];
+    return true;
+}
+
+static void drop_empty(struct corral *c) {
+    int kept = 0;
+    for (int i = 0; i < c->count; i++) {
+        if (!(c->weight[i] > 0))
+            continue;
+        memmove(c->x[kept], c->x[i], sizeof c->x[i]);
+        c->weight[kept++] = c->weight[i];
+    }
+    c->count = kept;
+}
+
+/* Moves to the nearest point of the hull of the corral, and keeps what that is between. */
+static bool settle(struct corral *c) {
+    for (int round = 0; round <= CORRAL; round++) {
+        double to[CORRAL], part = 1;
+        if (c->count == 0 || !affine_nearest(c, to))
+            return false;
+        for (int i = 0; i < c->count; i++)
+            if (to[i] <= 0)
+                part = fmin(part, c->weight[i] / (c->weight[i] - to[i]));
+        for (int i = 0; i < c->count; i++) {
+            const double w = c->weight[i] + part * (to[i] - c->weight[i]);
+            c->weight[i] = to[i] <= 0 && w < 0x1p-40 ? 0 : w;
+        }
+        if (part >= 1)
+            break;
+        drop_empty(c);
+    }
+    drop_empty(c);
+    for (int k = 0; k < 3; k++) {
+        c->near[k] = 0;
+        for (int i = 0; i < c->count; i++)
+            c->near[k] += c->weight[i] * c->x[i][k];
+    }
+    return c->count > 0;
+}
+
+/* The point of a set that is farthest against a direction. */
+static uint32_t lowest(const double (*x)[3], uint32_t count, const double way[3]) {
+    uint32_t best = 0;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        const double s = dot(x[i], way);
+        best = s < least ? i : best;
+        least = fmin(least, s);
+    }
+    return best;
+}
+
+/* A bound on the sums of sizes of products with v. */
+static double largest(const double (*x)[3], uint32_t count, const double v[3]) {
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++)
+        most = fmax(most, fabs(v[0] * x[i][0]) + fabs(v[1] * x[i][1]) + fabs(v[2] * x[i][2]));
+    return most;
+}
+
+bool pir_points_apart(const double (*a)[3], uint32_t count_a, const double (*b)[3], uint32_t count_b, double room) {
+    struct corral c = {.count = 1, .weight = {1}};
+    for (int k = 0; k < 3; k++)
+        c.near[k] = c.x[0][k] = a[0][k] - b[0][k];
+    for (int step = 0; step < STEPS; step++) {
+        const double *v = c.near, back[3] = {-v[0], -v[1], -v[2]};
+        const double *low = a[lowest(a, count_a, v)], *high = b[lowest(b, count_b, back)];
+        double added[3];
+        for (int k = 0; k < 3; k++)
+            added[k] = low[k] - high[k];
+        const double gap = dot(v, added);
+        if (gap > 0 && gap > (largest(a, count_a, v) + largest(b, count_b, v)) * MARGIN +
+                                 room * (fabs(v[0]) + fabs(v[1]) + fabs(v[2])))
+            return true;
+        const double length = dot(v, v);
+        if (!(length > 0) || gap > length * (1 - 0x1p-30) || c.count == CORRAL)
+            return false;
+        memcpy(c.x[c.count], added, sizeof added);
+        c.weight[c.count++] = 0;
+        if (!settle(&c))
+            return false;
+    }
+    return false;
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT */
+/* See rigid_boxes.h. */
+#include "plan/rigid/rigid_boxes.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+bool pir_rigid_grow(pir_rigid_job *job, void **array, uint32_t *room, uint32_t need, size_t size) {
+    if (job->status == PIR_OK && need > *room) {
+        const uint32_t larger = need + need / 2 + 16;
+        void *grown = realloc(*array, larger * size);
+        if (grown) {
+            *array = grown;
+            *room = larger;
+        } else {
+            job->status = PIR_ERR_MEMORY;
+        }
+    }
+    return job->status == PIR_OK;
+}
+
+uint32_t pir_rigid_root(uint32_t *root, uint32_t i) {
+    while (root[i] != i)
+        i = root[i] = root[root[i]];
+    return i;
+}
+
+/* --- which touch --- */
+
+static void add_touch(pir_rigid_job *job, uint32_t leaf, uint32_t other) {
+    pir_rigid_leaf *own = &job->leaf[leaf];
+    if (pir_rigid_grow(job, (void **)&own->touch, &own->room, own->touches + 1, sizeof *own->touch))
+        own->touch[own->touches++] = (pir_rigid_touch){other, 0, NULL, false};
+}
+
+static void drop_touch(pir_rigid_leaf *own, uint32_t other) {
+    for (uint32_t i = 0; i < own->touches; i++)
+        if (own->touch[i].other == other) {
+            free(own->touch[i].link);
+            own->touch[i] = own->touch[--own->touches];
+            return;
+        }
+}
+
+static void touch_both(pir_rigid_job *job, uint32_t a, uint32_t b) {
+    if (pir_rotation_boxes_touch(job->leaf[a].box, job->leaf[b].box)) {
+        add_touch(job, a, b);
+        add_touch(job, b, a);
+    }
+}
+
+static uint32_t add_leaf(pir_rigid_job *job, pir_rotation_box box, uint32_t parent) {
+    if (!pir_rigid_grow(job, (void **)&job->leaf, &job->leaf_room, job->leaves + 1, sizeof *job->leaf))
+        return PIR_PLAN_NONE;
+    job->leaf[job->leaves] = (pir_rigid_leaf){.box = box, .parent = parent};
+    job->alive++;
+    return job->leaves++;
+}
+
+void pir_rigid_boxes_begin(pir_rigid_job *job) {
+    for (uint32_t i = 0; i < PIR_ROTATION_ROOTS && job->status == PIR_OK; i++) {
+        const uint32_t leaf = add_leaf(job, pir_rotation_box_root(i), PIR_PLAN_NONE);
+        for (uint32_t k = 0; k < leaf && job->status == PIR_OK; k++)
+            touch_both(job, leaf, k);
+    }
+}
+
+static void free_links(pir_rigid_leaf *leaf) {
+    for (uint32_t i = 0; i < leaf->touches; i++)
+        free(leaf->touch[i].link);
+    free(leaf->touch);
+    leaf->touch = NULL;
+    leaf->touches = leaf->room = 0;
+}
+
+void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
+    const uint32_t first = job->leaves;
+    const pir_rotation_box box = job->leaf[leaf].box;
+    for (uint32_t i = 0; i < 8; i++)
+        add_leaf(job, pir_rotation_box_child(box, i), leaf);
+    for (uint32_t t = 0; t < job->leaf[leaf].touches && job->status == PIR_OK; t++) {
+        const uint32_t other = job->leaf[leaf].touch[t].other;
+        drop_touch(&job->leaf[other], leaf);
+        for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
+            touch_both(job, first + i, other);
+    }
+    // eighths share the middle
+    for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
+        for (uint32_t k = 0; k < i; k++)
+            touch_both(job, first + i, first + k);
+    pir_rigid_leaf *old = &job->leaf[leaf];
+    free_links(old);
+    pir_box_parts_finish(&old->inner);
+    old->is_divided = true;
+    job->alive--;
+}
+
+/* --- parts --- */
+
+static pir_status make_parts(const pir_rigid_job *job, const pir_plan_turns *turns, bool outer, pir_box_parts *ret) {
+    pir_plan_pieces pieces;
+    pir_status status = pir_plan_pieces_over(job->question->robot, turns, outer, &pieces);
+    if (status == PIR_OK)
+        status = pir_box_parts_make(job->question, &pieces, ret);
+    pir_plan_pieces_over_free(&pieces);
+    return status;
+}
+
+static void make_leaf(void *data, uint32_t index) {
+    pir_rigid_job *job = data;
+    pir_rigid_leaf *leaf = &job->leaf[job->first_new + index];
+    const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
+    leaf->status = make_parts(job, &corners, false, &leaf->inner);
+}
+
+static void fill_leaf(void *data, uint32_t index) {
+    pir_rigid_job *job = data;
+    pir_rigid_leaf *leaf = &job->leaf[job->list[index]];
+    const pir_plan_turns middle = {{pir_rotation_box_middle(leaf->box)}, 1};
+    leaf->status = make_parts(job, &middle, true, &leaf->middle);
+    leaf->is_full = leaf->status == PIR_OK;
+    // a robot that is too thin for outer pieces has no hubs
+    if (leaf->status == PIR_ERR_LIMIT)
+        leaf->status = PIR_OK;
+}
+
+/* --- links --- */
+
+/* Whether parts of two leaves may share a translation. */
+static bool parts_meet(const pir_box_parts *a, uint32_t part_a, const pir_box_parts *b, uint32_t part_b) {
+    for (uint32_t i = 0; i < a->cells; i++)
+        for (uint32_t k = 0; k < b->cells && a->cell[i].part == part_a; k++)
+            if (b->cell[k].part == part_b && pir_box_cells_meet(a, &a->cell[i], b, &b->cell[k]))
+                return true;
+    return false;
+}
+
+static pir_status link_two(const pir_box_parts *a, const pir_box_parts *b, pir_rigid_touch *touch) {
+    uint32_t room = 0;
+    for (uint32_t i = 0; i < a->parts; i++)
+        for (uint32_t k = 0; k < b->parts; k++) {
+            if (!parts_meet(a, i, b, k))
+                continue;
+            if (touch->links == room) {
+                room = 2 * room + 2;
+                uint32_t(*grown)[2] = realloc(touch->link, room * sizeof *grown);
+                if (!grown)
+                    return PIR_ERR_MEMORY;
+                touch->link = grown;
+            }
+            touch->link[touch->links][0] = i;
+            touch->link[touch->links++][1] = k;
+        }
+    touch->is_linked = true;
+    return PIR_OK;
+}
+
+static void link_leaf(void *data, uint32_t index) {
+    pir_rigid_job *job = data;
+    const uint32_t own = job->first_new + index;
+    pir_rigid_leaf *leaf = &job->leaf[own];
+    for (uint32_t i = 0; i < leaf->touches && leaf->status == PIR_OK; i++) {
+        pir_rigid_touch *touch = &leaf->touch[i];
+        if (touch->other < own && !touch->is_linked)
+            leaf->status = link_two(&leaf->inner, &job->leaf[touch->other].inner, touch);
+    }
+}
+
+static void share(pir_rigid_job *job, void (*task)(void *data, uint32_t index), uint32_t count) {
+    job->tasks.start(job->tasks.context, task, job, count);
+    job->tasks.finish(job->tasks.context);
+}
+
+void pir_rigid_boxes_make(pir_rigid_job *job) {
+    const uint32_t count = job->leaves - job->first_new;
+    share(job, make_leaf, count);
+    for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
+        job->status = job->leaf[i].status;
+        job->parts += job->leaf[i].inner.nodes;
+    }
+    if (job->status != PIR_OK)
+        return;
+    share(job, link_leaf, count);
+    for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++)
+        job->status = job->leaf[i].status;
+}
+
+void pir_rigid_boxes_fill(pir_rigid_job *job) {
+    share(job, fill_leaf, job->listed);
+    for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
+        job->status = job->leaf[job->list[i]].status;
+        job->parts += job->leaf[job->list[i]].middle.nodes;
+    }
+}
+
+void pir_rigid_boxes_join(pir_rigid_job *job) {
+    job->nodes = 0;
+    for (uint32_t i = 0; i < job->leaves; i++)
+        if (!job->leaf[i].is_divided) {
+            job->leaf[i].node = job->nodes;
+            job->nodes += job->leaf[i].inner.parts;
+        }
+    if (!pir_rigid_grow(job, (void **)&job->root, &job->root_room, job->nodes, sizeof *job->root))
+        return;
+    for (uint32_t i = 0; i < job->nodes; i++)
+        job->root[i] = i;
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+            for (uint32_t l = 0; l < touch->links; l++) {
+                const uint32_t a = pir_rigid_root(job->root, job->leaf[i].node + touch->link[l][0]);
+                job->root[a] = pir_rigid_root(job->root, job->leaf[touch->other].node + touch->link[l][1]);
+            }
+        }
+}
+
+void pir_rigid_boxes_finish(pir_rigid_job *job) {
+    for (uint32_t i = 0; i < job->leaves; i++) {
+        free_links(&job->leaf[i]);
+        pir_box_parts_finish(&job->leaf[i].inner);
+        pir_box_parts_finish(&job->leaf[i].middle);
+        free(job->leaf[i].hub);
+    }
+    free(job->leaf);
+    free(job->list);
+    free(job->root);
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The boxes of a plan: which there are, which touch, how their parts are linked.
+ *
+ * Invariants: leaves that are not divided cover all rotations; two of them have each other in their lists exactly where
+ * they share a rotation. Parts of two that may share a translation are linked.
+ */
+#ifndef PIR_PLAN_RIGID_RIGID_BOXES_H
+#define PIR_PLAN_RIGID_RIGID_BOXES_H
+
+#include "plan/rigid/rigid_plan.h"
+
+/* The boxes of level 1. */
+void pir_rigid_boxes_begin(pir_rigid_job *job);
+
+/* Replaces a leaf by its eighths. */
+void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
+
+/* Makes the inner parts of all leaves that are new, and the links between them and others. */
+void pir_rigid_boxes_make(pir_rigid_job *job);
+
+/* Divides the translations at the middles of the boxes that the job lists. */
+void pir_rigid_boxes_fill(pir_rigid_job *job);
+
+/* Numbers the nodes, and joins those that are linked. */
+void pir_rigid_boxes_join(pir_rigid_job *job);
+
+void pir_rigid_boxes_finish(pir_rigid_job *job);
+
+#endif

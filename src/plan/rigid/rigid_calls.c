@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/* Plans with all turns, as callers see them: the question is checked here, and decided by rigid_search.h. */
+#include <stdlib.h>
+
+#include <pirouette/plan.h>
+
+#include "base/memory.h"
+#include "base/options.h"
+#include "base/report.h"
+#include "plan/rigid/rigid_search.h"
+#include "scene/tasks/tasks.h"
+
+struct pir_rigid_plan {
+    pir_rigid_plan_info info;
+    pir_rigid_result result;
+};
+
+/* A question that is being decided; pieces are held by `space`. */
+struct rigid_call {
+    const pir_rigid_plan_input *input;
+    pir_rigid_plan_options how;
+    pir_plan_space space;
+    pir_plan_pieces robot, obstacles;
+    pir_rigid_question question;
+};
+
+static const char *const end_name[2] = {"from", "to"};
+
+static bool is_finite(pir_vec3 v) {
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+static pir_status check_numbers(const struct rigid_call *t) {
+    const pir_rigid_plan_input *in = t->input;
+    const pir_vec3 low = in->low, high = in->high;
+    if (!is_finite(low) || !is_finite(high))
+        return pir_fail(t->how.report, PIR_ERR_NOT_FINITE, "bounds: a coordinate is not finite");
+    if (!(low.x < high.x && low.y < high.y && low.z < high.z))
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "bounds: each low one must be below its high one");
+    for (int e = 0; e < 2; e++) {
+        const pir_pose pose = e == 0 ? in->from : in->to;
+        const pir_vec3 x = pose.translation;
+        const pir_quat q = pose.rotation;
+        if (!is_finite(x) || !isfinite(q.x + q.y + q.z + q.w))
+            return pir_fail(t->how.report, PIR_ERR_NOT_FINITE, "%s: a number is not finite", end_name[e]);
+        if (q.x == 0 && q.y == 0 && q.z == 0 && q.w == 0)
+            return pir_fail(t->how.report, PIR_ERR_ZERO_QUATERNION, "%s: the quaternion is zero", end_name[e]);
+        if (!(x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x && x.y <= high.y && x.z <= high.z))
+            return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "%s: it is outside of the bounds", end_name[e]);
+    }
+    if (t->how.boxes < PIR_ROTATION_ROOTS || t->how.threads == 0 || t->how.reserved != 0)
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, no thread, or a reserved number",
+                        PIR_ROTATION_ROOTS);
+    return PIR_OK;
+}
+
+static pir_status add_all(struct rigid_call *t, const pir_solid *const *solid, size_t count, const char *what,
+                          pir_plan_pieces *pieces) {
+    pir_status status = PIR_OK;
+    if (count == 0)
+        return pir_fail(t->how.report, PIR_ERR_EMPTY, "plan: there is no %s", what);
+    for (size_t i = 0; i < count && status == PIR_OK; i++) {
+        if (!solid || !solid[i])
+            return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: a solid is NULL");
+        status = pir_plan_pieces_add(&t->space, solid[i], (uint32_t)i, pieces);
+    }
+    return status;
+}
+
+/* The quaternion with its largest component ±1 about, so that products are finite. */
+static pir_quat scaled(pir_quat q) {
+    int exponent;
+    frexp(fmax(fmax(fabs(q.x), fabs(q.y)), fmax(fabs(q.z), fabs(q.w))), &exponent);
+    return (pir_quat){ldexp(q.x, -exponent), ldexp(q.y, -exponent), ldexp(q.z, -exponent), ldexp(q.w, -exponent)};
+}
+
+static void fill_question(struct rigid_call *t) {
+    const pir_rigid_plan_input *in = t->input;
+    const pir_vec3 a = in->from.translation, b = in->to.translation;
+    t->question = (pir_rigid_question){.robot = &t->robot,
+                                       .obstacles = &t->obstacles,
+                                       .low = {in->low.x, in->low.y, in->low.z},
+                                       .high = {in->high.x, in->high.y, in->high.z},
+                                       .at = {{a.x, a.y, a.z}, {b.x, b.y, b.z}},
+                                       .rotation = {scaled(in->from.rotation), scaled(in->to.rotation)},
+                                       .most_boxes = t->how.boxes,
+                                       .most_parts = t->how.parts,
+                                       .memory = t->how.memory};
+}
+
+/* Whether both ends are free. */
+static pir_status check_ends(struct rigid_call *t) {
+    for (int e = 0; e < 2; e++) {
+        pir_plan_sums sums = {0};
+        pir_status status = pir_plan_sums_make(&t->space, &t->robot, &t->obstacles, t->question.rotation[e], &sums);
+        const uint32_t point = status == PIR_OK ? pir_plan_point_at(&t->space, t->question.at[e]) : 0;
+        if (status == PIR_OK && t->space.status == PIR_OK &&
+            pir_plan_sums_at(&t->space, &sums, point, false) != PIR_PLAN_NONE)
+            status = pir_fail(t->how.report, PIR_ERR_ARGUMENT, "%s: the robot meets an obstacle there", end_name[e]);
+        pir_plan_sums_finish(&t->space, &sums);
+        if (status == PIR_OK)
+            status = t->space.status;
+        if (status != PIR_OK)
+            return status;
+    }
+    return PIR_OK;
+}
+
+static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
+    const pir_rigid_plan_input *in = t->input;
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    pir_task_pool *pool = NULL;
+    pir_status status = add_all(t, in->robot, in->robot_count, "robot", &t->robot);
+    if (status == PIR_OK)
+        status = add_all(t, in->obstacles, in->obstacle_count, "obstacle", &t->obstacles);
+    if (status != PIR_OK)
+        return status;
+    fill_question(t);
+    status = check_ends(t);
+    if (status == PIR_OK)
+        status = pir_task_pool_create(&allocator, t->how.threads, &pool);
+    if (status != PIR_OK)
+        return status;
+    status = pir_rigid_decide(&t->question, pir_task_pool_interface(pool), t->how.proof, &plan->result);
+    pir_task_pool_destroy(pool);
+    const pir_rigid_result *r = &plan->result;
+    plan->info =
+        (pir_rigid_plan_info){r->answer, r->steps, r->boxes, r->divided, r->parts, t->robot.count, t->obstacles.count};
+    return status;
+}
+
+static pir_status answer(struct rigid_call *t, pir_rigid_plan **ret_plan) {
+    pir_status status = check_numbers(t);
+    if (status != PIR_OK)
+        return status;
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    pir_rigid_plan *plan = calloc(1, sizeof *plan);
+    if (!plan)
+        return pir_fail(t->how.report, PIR_ERR_MEMORY, "plan: out of memory");
+    pir_plan_space_init(&t->space, &allocator, t->how.memory);
+    status = decide(t, plan);
+    pir_plan_pieces_finish(&t->space, &t->robot);
+    pir_plan_pieces_finish(&t->space, &t->obstacles);
+    pir_plan_space_finish(&t->space);
+    if (status == PIR_OK)
+        *ret_plan = plan;
+    else
+        pir_rigid_plan_destroy(plan);
+    return status;
+}
+
+pir_status pir_rigid_plan_create(const pir_rigid_plan_input *input, const pir_rigid_plan_options *options,
+                                 pir_rigid_plan **ret_plan) {
+    if (!input || !ret_plan)
+        return PIR_ERR_ARGUMENT;
+    struct rigid_call t = {.input = input, .how = pir_rigid_plan_options_default()};
+    pir_report own = {0}, *const *caller = options ? &options->report : NULL;
+    pir_status status = pir_options_take("pir_rigid_plan_options", options, &t.how, caller);
+    if (status != PIR_OK)
+        return status;
+    // a report is filled only where the call fails
+    pir_report *told = t.how.report;
+    t.how.report = &own;
+    status = answer(&t, ret_plan);
+    if (status != PIR_OK && own.status != status)
+        pir_fail(&own, status, "plan: %s", pir_status_text(status));
+    if (status != PIR_OK && told)
+        *told = own;
+    return status;
+}
+
+void pir_rigid_plan_destroy(pir_rigid_plan *plan) {
+    if (!plan)
+        return;
+    free(plan->result.step);
+    free(plan);
+}
+
+void pir_rigid_plan_describe(const pir_rigid_plan *plan, pir_rigid_plan_info *ret_info) {
+    *ret_info = plan->info;
+}
+
+pir_status pir_rigid_plan_get_step(const pir_rigid_plan *plan, uint32_t index, pir_pose *ret_pose) {
+    if (!plan || !ret_pose || index >= plan->info.steps)
+        return PIR_ERR_ARGUMENT;
+    *ret_pose = plan->result.step[index];
+    return PIR_OK;
+}

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Whether a body can be moved between two poses by translations and any turns, between closed bodies.
+ *
+ * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner pieces
+ * (turn_bodies.h): what they block is blocked at every rotation of the box. Free cells of boxes that share a rotation
+ * are joined unless they are proven to be apart. Where the ends are not connected, there is no path.
+ *
+ * A *hub* is a free place at the middle of a box. A box has those of the box that it is a part of, where the robot can
+ * turn from one middle to the other on the spot, which outer pieces over the arc between them prove. Of boxes of level
+ * 1, and of those that are doubted, the translations are divided for the robot at the middle; then each connected part
+ * is a hub, joined with others by turns at translations that both have. Where the ends are connected through hubs there
+ * is a path: translations at middles, and turns where the robot stands. Hubs stay when their box is divided, for what
+ * they prove stays true.
+ *
+ * Else boxes are divided where that may decide. Free parts of boxes are nodes of a graph, of which hubs tell that some
+ * can be reached from the start, others from the end. Nodes on shortest ways from the first to the second are doubted:
+ * a path may lead through them, or they are too large. Their boxes are halved in all three coordinates, and only new
+ * boxes are looked at.
+ *
+ * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
+ * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.
+ */
+#ifndef PIR_PLAN_RIGID_RIGID_PLAN_H
+#define PIR_PLAN_RIGID_RIGID_PLAN_H
+
+#include <pirouette/plan.h>
+#include <pirouette/tasks.h>
+#include <pirouette/workspace.h>
+
+#include "plan/rigid/box_parts.h"
+#include "plan/rigid/rotation_box.h"
+
+/* Another leaf that a leaf touches; links join parts of both, and stand with the one of the greater number. */
+typedef struct pir_rigid_touch {
+    uint32_t other, links;
+    uint32_t (*link)[2]; /* own part, the other's */
+    bool is_linked;
+} pir_rigid_touch;
+
+/* A free place at a middle: any one of a connected part, if these are known. */
+typedef struct pir_rigid_hub {
+    double at[3];
+    uint32_t node, in; /* its number; the part of the box's inner ones that it is in, or none */
+} pir_rigid_hub;
+
+/* A box of rotations. One that was divided keeps its hubs. */
+typedef struct pir_rigid_leaf {
+    pir_rotation_box box;
+    bool is_divided, is_full; /* whether the parts at the middle are known: the first hubs are these */
+    uint32_t parent;          /* PIR_PLAN_NONE of roots */
+    pir_box_parts inner;      /* for inner pieces */
+    pir_box_parts middle;     /* at the middle, where it is full */
+    pir_rigid_hub *hub;
+    uint32_t node; /* the first */
+    pir_rigid_touch *touch;
+    uint32_t touches, room, hubs, hub_room;
+    pir_status status; /* of its making */
+} pir_rigid_leaf;
+
+/* A turn at a translation between two hubs. */
+typedef struct pir_rigid_turn {
+    uint32_t leaf[2], hub[2]; /* hubs as nodes */
+    double at[3];
+} pir_rigid_turn;
+
+/* The numbers of the hubs that the ends are. */
+enum pir_rigid_end { PIR_RIGID_START, PIR_RIGID_GOAL, PIR_RIGID_ENDS };
+
+typedef struct pir_rigid_job {
+    const pir_rigid_question *question;
+    pir_tasks tasks;
+    pir_status status;
+    pir_rigid_leaf *leaf;
+    uint32_t leaves, leaf_room, alive;
+    uint32_t first_new;                /* leaves from here on were added last */
+    uint32_t *list, listed, list_room; /* leaves that are doubted */
+    uint32_t nodes;                    /* parts of all leaves that are not divided */
+    uint32_t *root;                    /* of nodes */
+    uint32_t root_room;
+    uint32_t hubs, *hub_root, hub_room;
+    pir_rigid_turn *turn;
+    uint32_t turns, turn_room;
+    uint64_t parts; /* of all divisions */
+    pir_workspace *workspace;
+} pir_rigid_job;
+
+typedef struct pir_rigid_result {
+    pir_turn_plan_answer answer;
+    uint32_t boxes, divided; /* leaves at the end; boxes that were divided */
+    uint64_t parts;
+    pir_pose *step; /* of a path; from malloc */
+    uint32_t steps;
+} pir_rigid_result;
+
+/* Grows an array of the job's; false once its status is a failure. */
+bool pir_rigid_grow(pir_rigid_job *job, void **array, uint32_t *room, uint32_t need, size_t size);
+
+/* The root in a forest of numbers. */
+uint32_t pir_rigid_root(uint32_t *root, uint32_t i);
+
+#endif

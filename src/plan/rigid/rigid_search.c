@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: MIT */
+/* See rigid_plan.h. */
+#include "plan/rigid/rigid_search.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "plan/rigid/rigid_boxes.h"
+#include "plan/rigid/rigid_hubs.h"
+#include "plan/rigid/rigid_path.h"
+#include "plan/rigid/rigid_write.h"
+
+/* A search over nodes: how far each is from those that are at the start, and at the end. */
+struct doubt {
+    uint32_t *first, *next; /* per node, where its links begin in the list of the linked */
+    uint32_t *leaf;         /* of each node */
+    uint32_t *far[2], *queue;
+};
+
+static bool open_doubt(const pir_rigid_job *job, struct doubt *d) {
+    size_t links = 0;
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (uint32_t t = 0; t < job->leaf[i].touches; t++)
+            links += job->leaf[i].touch[t].links;
+    d->first = calloc((size_t)job->nodes + 2, sizeof *d->first);
+    d->next = calloc(2 * links + 1, sizeof *d->next);
+    d->leaf = calloc((size_t)job->nodes + 1, sizeof *d->leaf);
+    d->queue = calloc((size_t)job->nodes + 1, sizeof *d->queue);
+    for (int s = 0; s < 2; s++)
+        d->far[s] = calloc((size_t)job->nodes + 1, sizeof *d->far[s]);
+    return d->first && d->next && d->leaf && d->queue && d->far[0] && d->far[1];
+}
+
+static void close_doubt(struct doubt *d) {
+    free(d->first);
+    free(d->next);
+    free(d->leaf);
+    free(d->queue);
+    free(d->far[0]);
+    free(d->far[1]);
+}
+
+/* Calls for both nodes of each link: counts where `list` is false, else lists. */
+static void each_link(const pir_rigid_job *job, struct doubt *d, bool list) {
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+            for (uint32_t l = 0; l < touch->links; l++) {
+                const uint32_t a = job->leaf[i].node + touch->link[l][0];
+                const uint32_t b = job->leaf[touch->other].node + touch->link[l][1];
+                if (list) {
+                    d->next[d->first[a + 1]++] = b;
+                    d->next[d->first[b + 1]++] = a;
+                } else {
+                    d->first[a + 2]++;
+                    d->first[b + 2]++;
+                }
+            }
+        }
+}
+
+static void list_links(const pir_rigid_job *job, struct doubt *d) {
+    each_link(job, d, false);
+    for (uint32_t n = 2; n < job->nodes + 2; n++)
+        d->first[n] += d->first[n - 1];
+    each_link(job, d, true);
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (uint32_t p = 0; !job->leaf[i].is_divided && p < job->leaf[i].inner.parts; p++)
+            d->leaf[job->leaf[i].node + p] = i;
+}
+
+static void add_source(struct doubt *d, int side, uint32_t node, uint32_t *count) {
+    if (d->far[side][node] != 0) {
+        d->far[side][node] = 0;
+        d->queue[(*count)++] = node;
+    }
+}
+
+/* The nodes that an end is in. */
+static uint32_t list_ends(const pir_rigid_job *job, int side, uint32_t *node, uint32_t room) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->leaves; i++) {
+        const pir_rigid_leaf *leaf = &job->leaf[i];
+        if (leaf->is_divided || !pir_rotation_box_has(leaf->box, job->question->rotation[side]))
+            continue;
+        for (uint32_t k = 0; k < leaf->inner.cells && count < room; k++)
+            if (pir_box_cell_has(&leaf->inner, &leaf->inner.cell[k], job->question->at[side]))
+                node[count++] = leaf->node + leaf->inner.cell[k].part;
+    }
+    return count;
+}
+
+#define MOST_ENDS 1024
+
+/* How far nodes are from those that an end is in, or a hub that the end reaches. */
+static void measure(pir_rigid_job *job, struct doubt *d, int side) {
+    uint32_t count = 0, end[MOST_ENDS];
+    const uint32_t ends = list_ends(job, side, end, MOST_ENDS), root = pir_rigid_root(job->hub_root, (uint32_t)side);
+    memset(d->far[side], 0xff, job->nodes * sizeof *d->far[side]);
+    for (uint32_t i = 0; i < ends; i++)
+        add_source(d, side, end[i], &count);
+    for (uint32_t i = 0; i < job->leaves; i++) {
+        const pir_rigid_leaf *leaf = &job->leaf[i];
+        for (uint32_t h = 0; !leaf->is_divided && h < leaf->hubs; h++)
+            if (leaf->hub[h].in != PIR_PLAN_NONE && pir_rigid_root(job->hub_root, leaf->hub[h].node) == root)
+                add_source(d, side, leaf->node + leaf->hub[h].in, &count);
+    }
+    for (uint32_t done = 0; done < count; done++) {
+        const uint32_t node = d->queue[done];
+        for (uint32_t i = d->first[node]; i < d->first[node + 1]; i++)
+            if (d->far[side][d->next[i]] == PIR_PLAN_NONE) {
+                d->far[side][d->next[i]] = d->far[side][node] + 1;
+                d->queue[count++] = d->next[i];
+            }
+    }
+}
+
+/* Marks the boxes of nodes on shortest ways: what is between the ends' own nodes where there is anything. */
+static void mark(const pir_rigid_job *job, const struct doubt *d, bool *is_doubted) {
+    uint32_t least = PIR_PLAN_NONE;
+    for (uint32_t n = 0; n < job->nodes; n++)
+        if (d->far[0][n] != PIR_PLAN_NONE && d->far[1][n] != PIR_PLAN_NONE) {
+            const uint32_t far = d->far[0][n] + d->far[1][n];
+            least = far < least ? far : least;
+        }
+    for (uint32_t n = 0; n < job->nodes; n++) {
+        const uint32_t a = d->far[0][n], b = d->far[1][n];
+        if (a != PIR_PLAN_NONE && b != PIR_PLAN_NONE && a + b == least && (least < 2 || (a > 0 && b > 0)))
+            is_doubted[d->leaf[n]] = true;
+    }
+}
+
+/* The boxes of an end that no hub reaches. */
+static void mark_ends(pir_rigid_job *job, bool *is_doubted) {
+    bool is_reached[PIR_RIGID_ENDS] = {false, false};
+    for (uint32_t i = 0; i < job->turns; i++)
+        for (int s = 0; s < 2; s++)
+            if (job->turn[i].hub[s] < PIR_RIGID_ENDS)
+                is_reached[job->turn[i].hub[s]] = true;
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (int s = 0; s < PIR_RIGID_ENDS; s++)
+            if (!is_reached[s] && !job->leaf[i].is_divided &&
+                pir_rotation_box_has(job->leaf[i].box, job->question->rotation[s]))
+                is_doubted[i] = true;
+}
+
+/* Lists the boxes that are doubted and can be divided. */
+static void list_doubted(pir_rigid_job *job) {
+    struct doubt d = {0};
+    bool *is_doubted = calloc(job->leaves, sizeof *is_doubted);
+    if (is_doubted && open_doubt(job, &d)) {
+        list_links(job, &d);
+        measure(job, &d, 0);
+        measure(job, &d, 1);
+        mark(job, &d, is_doubted);
+        mark_ends(job, is_doubted);
+    } else {
+        job->status = PIR_ERR_MEMORY;
+    }
+    close_doubt(&d);
+    job->listed = 0;
+    // in the beginning all middles are looked at
+    for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++)
+        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.level < PIR_ROTATION_LEVELS &&
+            pir_rigid_grow(job, (void **)&job->list, &job->list_room, job->listed + 1, sizeof *job->list))
+            job->list[job->listed++] = i;
+    free(is_doubted);
+}
+
+/* Divides listed boxes as far as the budget goes; how many. */
+static uint32_t divide(pir_rigid_job *job) {
+    uint32_t count = 0;
+    job->first_new = job->leaves;
+    for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
+        if (job->alive + 7 <= job->question->most_boxes) {
+            pir_rigid_box_divide(job, job->list[i]);
+            count++;
+        }
+    return count;
+}
+
+/* Keeps of the list those boxes whose middles are of use: where inner pieces block nothing nobody knows anything. */
+static uint32_t keep_useful(pir_rigid_job *job, uint32_t *kept) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < job->listed; i++) {
+        const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
+        if (leaf->box.level == 1 || leaf->inner.nodes > 1)
+            kept[count++] = job->list[i];
+    }
+    return count;
+}
+
+/* Looks at the middles of listed boxes; the list stays. */
+static void look_at_middles(pir_rigid_job *job) {
+    uint32_t *kept = calloc((size_t)job->listed + 1, sizeof *kept), *all = job->list;
+    const uint32_t listed = job->listed;
+    if (!kept) {
+        job->status = PIR_ERR_MEMORY;
+        return;
+    }
+    job->listed = keep_useful(job, kept);
+    job->list = kept;
+    pir_rigid_boxes_fill(job);
+    if (job->status == PIR_OK)
+        pir_rigid_hubs_join(job);
+    job->list = all;
+    job->listed = listed;
+    free(kept);
+}
+
+/* Whether inner pieces leave no way between the ends. */
+static bool is_cut(pir_rigid_job *job, uint32_t *ret_root) {
+    uint32_t end[2][MOST_ENDS], ends[2];
+    for (int s = 0; s < 2; s++)
+        ends[s] = list_ends(job, s, end[s], MOST_ENDS);
+    for (uint32_t i = 1; i < ends[0]; i++)
+        job->root[pir_rigid_root(job->root, end[0][i])] = pir_rigid_root(job->root, end[0][0]);
+    bool is_joined = ends[0] == 0 || ends[1] == 0 || ends[0] == MOST_ENDS || ends[1] == MOST_ENDS;
+    if (!is_joined)
+        *ret_root = pir_rigid_root(job->root, end[0][0]);
+    for (uint32_t i = 0; i < ends[1] && !is_joined; i++)
+        is_joined = pir_rigid_root(job->root, end[1][i]) == *ret_root;
+    return !is_joined;
+}
+
+/* Looks at the new boxes; true where the question is decided, or can be decided no more. */
+static bool take_round(pir_rigid_job *job, FILE *proof, pir_rigid_result *result) {
+    uint32_t root = 0;
+    pir_rigid_boxes_make(job);
+    if (job->status == PIR_OK)
+        pir_rigid_boxes_join(job);
+    if (job->status == PIR_OK && is_cut(job, &root)) {
+        result->answer = PIR_TURN_PLAN_NO_PATH;
+        job->status = proof ? pir_rigid_write(job, root, proof) : PIR_OK;
+        return true;
+    }
+    if (job->status == PIR_OK)
+        pir_rigid_hubs_inherit(job);
+    if (job->status == PIR_OK)
+        list_doubted(job);
+    if (job->status == PIR_OK)
+        look_at_middles(job);
+    if (job->status == PIR_OK &&
+        pir_rigid_root(job->hub_root, PIR_RIGID_START) == pir_rigid_root(job->hub_root, PIR_RIGID_GOAL)) {
+        job->status = pir_rigid_path_make(job, result);
+        if (result->answer != PIR_TURN_PLAN_UNKNOWN)
+            return true;
+    }
+    return job->status != PIR_OK || divide(job) == 0;
+}
+
+pir_status pir_rigid_decide(const pir_rigid_question *question, pir_tasks tasks, FILE *proof,
+                            pir_rigid_result *ret_result) {
+    pir_rigid_job job = {.question = question, .tasks = tasks};
+    *ret_result = (pir_rigid_result){0};
+    pir_rigid_hubs_begin(&job);
+    pir_rigid_boxes_begin(&job);
+    while (job.status == PIR_OK && !take_round(&job, proof, ret_result))
+        continue;
+    ret_result->boxes = job.alive;
+    ret_result->divided = job.leaves - job.alive;
+    ret_result->parts = job.parts;
+    pir_rigid_hubs_finish(&job);
+    pir_rigid_boxes_finish(&job);
+    return job.status == PIR_ERR_LIMIT ? PIR_OK : job.status;
+}

@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: MIT */
+/* The proof that there is no path, as docs/plan.md has it; check/motions.py checks it. */
+#ifndef PIR_PLAN_RIGID_RIGID_WRITE_H
+#define PIR_PLAN_RIGID_RIGID_WRITE_H
+
+#include <stdio.h>
+
+#include "plan/rigid/rigid_plan.h"
+
+/* Writes it: `start` is the root of the nodes that are connected with the start. */
+pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file);
+
+#endif

@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Plans by any motion: boxes and tetrahedra before a plate with a rectangular window.
+ *
+ * Paths are held against exact queries of the convex pieces at random moments of each motion. What is decided is held
+ * against what is known of gates: a box that has a ball larger than the window is wide never goes through; one whose
+ * least side face fits the window does.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <pirouette/pirouette.h>
+
+/* A gate, or a question that is changed. */
+struct gate {
+    pir_solid *robot, *wall[4];
+    pir_polytope *shape, *plate[4]; /* the same as polytopes */
+    pir_rigid_plan_input input;
+};
+
+static double uniform(double low, double high) {
+    return low + (high - low) * (rand() / (double)RAND_MAX);
+}
+
+static pir_solid *solid_of(const pir_vec3 *p, size_t points, const uint32_t *starts, const uint32_t *corners,
+                           size_t facets) {
+    const pir_solid_facets made = {p, points, starts, corners, facets};
+    pir_solid *solid = NULL;
+    assert_int_equal(pir_solid_create(&made, NULL, NULL, &solid), PIR_OK);
+    return solid;
+}
+
+static pir_solid *make_box(pir_vec3 low, pir_vec3 high, pir_polytope **ret_shape) {
+    static const uint32_t sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    static const uint32_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
+    pir_vec3 p[8];
+    for (int i = 0; i < 8; i++)
+        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    assert_int_equal(pir_polytope_create(p, 8, NULL, ret_shape), PIR_OK);
+    return solid_of(p, 8, starts, sides, 6);
+}
+
+/* A regular tetrahedron, with a ball of a third of the radius. */
+static pir_solid *make_tetrahedron(double radius, pir_polytope **ret_shape) {
+    static const uint32_t sides[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
+    static const uint32_t starts[5] = {0, 3, 6, 9, 12};
+    const double e = radius / sqrt(3);
+    const pir_vec3 p[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
+    assert_int_equal(pir_polytope_create(p, 4, NULL, ret_shape), PIR_OK);
+    return solid_of(p, 4, starts, sides, 4);
+}
+
+/* A plate about the plane z = 0 with a window along the axes; the robot goes from under it to over it. */
+static void make_wall(double width, double length, double way, struct gate *g) {
+    const double x = width / 2, y = length / 2;
+    const pir_vec3 low[4] = {{-9, -9, -.5}, {x, -9, -.5}, {-x, -9, -.5}, {-x, y, -.5}},
+                   high[4] = {{-x, 9, .5}, {9, 9, .5}, {x, -y, .5}, {x, 9, .5}};
+    for (int i = 0; i < 4; i++)
+        g->wall[i] = make_box(low[i], high[i], &g->plate[i]);
+    g->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)&g->robot,
+                                      .robot_count = 1,
+                                      .obstacles = (const pir_solid *const *)g->wall,
+                                      .obstacle_count = 4,
+                                      .low = {-1, -1, -way - .5},
+                                      .high = {1, 1, way + .5},
+                                      .from = {{0, 0, 0, 1}, {0, 0, -way}},
+                                      .to = {{.3, -.2, .1, -.9}, {0, 0, way}}};
+}
+
+static void release_gate(struct gate *g) {
+    for (int i = 0; i < 4; i++) {
+        pir_solid_release(g->wall[i]);
+        pir_polytope_release(g->plate[i]);
+    }
+    pir_solid_release(g->robot);
+    pir_polytope_release(g->shape);
+}
+
+static void check_pose(const struct gate *g, pir_workspace *workspace, pir_pose pose) {
+    for (int i = 0; i < 4; i++) {
+        pir_pair *pair = NULL;
+        pir_query_result result;
+        pir_pair_input input = pir_pair_input_default();
+        input.pose_p = pose;
+        assert_int_equal(pir_pair_create(g->shape, g->plate[i], NULL, &pair), PIR_OK);
+        assert_int_equal(pir_pair_overlap(pair, workspace, &input, &result), PIR_OK);
+        assert_int_equal(result.state, PIR_OUTSIDE);
+        pir_pair_destroy(pair);
+    }
+}
+
+static double product(pir_quat a, pir_quat b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+}
+
+static bool is_same(const void *a, const void *b, size_t size) {
+    return memcmp(a, b, size) == 0;
+}
+
+/* The path goes from end to end, keeps the rotation or the translation, and is free at random moments. */
+static void check_path(const struct gate *g, const pir_rigid_plan *plan, uint32_t steps, int moments) {
+    pir_pose pose[2];
+    pir_workspace *workspace = NULL;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint32_t i = 0; i < steps; i++, pose[0] = pose[1]) {
+        assert_int_equal(pir_rigid_plan_get_step(plan, i, &pose[1]), PIR_OK);
+        const pir_pose *end = i == 0 ? &g->input.from : &g->input.to;
+        if (i == 0 || i + 1 == steps) {
+            const double cosine = product(end->rotation, pose[1].rotation);
+            const double lengths = product(end->rotation, end->rotation) * product(pose[1].rotation, pose[1].rotation);
+            assert_true(is_same(&end->translation, &pose[1].translation, sizeof(pir_vec3)));
+            assert_true(fabs(cosine * cosine / lengths - 1) < 1e-14);
+        }
+        const pir_vec3 a = pose[0].translation, b = pose[1].translation;
+        const pir_quat p = pose[0].rotation, q = pose[1].rotation;
+        if (i == 0)
+            continue;
+        assert_true(is_same(&a, &b, sizeof a) || is_same(&p, &q, sizeof p));
+        const double sign = product(p, q) < 0 ? -1 : 1;
+        for (int k = 0; k < moments; k++) {
+            const double s = uniform(0, 1), t = 1 - s;
+            const pir_vec3 at = {t * a.x + s * b.x, t * a.y + s * b.y, t * a.z + s * b.z};
+            const pir_quat turn = {t * p.x + sign * s * q.x, t * p.y + sign * s * q.y, t * p.z + sign * s * q.z,
+                                   t * p.w + sign * s * q.w};
+            check_pose(g, workspace, (pir_pose){turn, at});
+        }
+    }
+    pir_workspace_destroy(workspace);
+    assert_int_equal(pir_rigid_plan_get_step(plan, steps, &pose[0]), PIR_ERR_ARGUMENT);
+}
+
+static pir_turn_plan_answer ask(const struct gate *g, uint32_t boxes, uint32_t threads, FILE *proof,
+                                pir_rigid_plan_info *ret_info) {
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan *plan = NULL;
+    options.boxes = boxes;
+    options.threads = threads;
+    options.proof = proof;
+    assert_int_equal(pir_rigid_plan_create(&g->input, &options, &plan), PIR_OK);
+    pir_rigid_plan_describe(plan, ret_info);
+    printf("answer %d, %u boxes, %llu parts, %u steps\n", (int)ret_info->answer, ret_info->boxes,
+           (unsigned long long)ret_info->parts, ret_info->steps);
+    if (ret_info->answer == PIR_TURN_PLAN_PATH)
+        check_path(g, plan, ret_info->steps, 40);
+    else
+        assert_int_equal(ret_info->steps, 0);
+    pir_rigid_plan_destroy(plan);
+    return ret_info->answer;
+}
+
+static void make_gate(double a, double b, double c, double width, double length, struct gate *g) {
+    g->robot = make_box((pir_vec3){-a / 2, -b / 2, -c / 2}, (pir_vec3){a / 2, b / 2, c / 2}, &g->shape);
+    make_wall(width, length, sqrt(a * a + b * b + c * c) / 2 + 1, g);
+}
+
+static void test_wide(void **state) {
+    (void)state;
+    pir_rigid_plan_info info;
+    struct gate g;
+    make_gate(1, 1.2, 1.5, 2.5, 2.5, &g);
+    assert_int_equal(ask(&g, 4096, 1, NULL, &info), PIR_TURN_PLAN_PATH);
+    release_gate(&g);
+}
+
+/* A box that lies across a slot has to turn. */
+static void test_slot(void **state) {
+    (void)state;
+    pir_rigid_plan_info info;
+    struct gate g;
+    make_gate(3, .8, .8, 1.4, 1.6, &g);
+    assert_int_equal(ask(&g, 4096, 2, NULL, &info), PIR_TURN_PLAN_PATH);
+    release_gate(&g);
+}
+
+/* A tetrahedron that has a ball larger than the window: decided with the first boxes; the same by two threads. */
+static void test_tight(void **state) {
+    (void)state;
+    pir_rigid_plan_info info[2];
+    struct gate g;
+    g.robot = make_tetrahedron(16, &g.shape);
+    make_wall(2, 2, 17, &g);
+    assert_int_equal(ask(&g, 32, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(ask(&g, 32, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
+    assert_true(is_same(&info[0], &info[1], sizeof info[0]));
+    release_gate(&g);
+}
+
+static void test_budget(void **state) {
+    (void)state;
+    pir_rigid_plan_info info;
+    struct gate g;
+    make_gate(1.02, 1.02, 1.02, 1, 1, &g);
+    assert_int_equal(ask(&g, 64, 1, NULL, &info), PIR_TURN_PLAN_UNKNOWN);
+    assert_true(info.boxes <= 64);
+    release_gate(&g);
+}
+
+/* Random gates: what is decided is right, and is never decided otherwise with another budget. PIR_TEST_CASES. */
+static void test_gates(void **state) {
+    (void)state;
+    const char *told = getenv("PIR_TEST_CASES");
+    const int cases = told ? atoi(told) : 6;
+    int count[3] = {0, 0, 0};
+    for (int i = 0; i < cases; i++) {
+        const double a = uniform(.6, 2), b = uniform(a, 2.2), c = uniform(b, 2.4);
+        const double width = uniform(1, 2.4), length = uniform(width, 3);
+        pir_turn_plan_answer answer[2];
+        pir_rigid_plan_info info;
+        struct gate g;
+        printf("box %g x %g x %g, window %g x %g: ", a, b, c, width, length);
+        make_gate(c, a, b, width, length, &g);
+        for (int k = 0; k < 2; k++)
+            answer[k] = ask(&g, k == 0 ? 128 : 512, 1 + (uint32_t)k, NULL, &info);
+        assert_true(answer[0] == PIR_TURN_PLAN_UNKNOWN || answer[0] == answer[1]);
+        assert_false(answer[1] == PIR_TURN_PLAN_PATH && a > width);
+        assert_false(answer[1] == PIR_TURN_PLAN_NO_PATH && a < width && b < length);
+        count[answer[1]]++;
+        release_gate(&g);
+    }
+    printf("gates: %d unknown, %d paths, %d without\n", count[0], count[1], count[2]);
+}
+
+static pir_status status_of(const pir_rigid_plan_input *input, const pir_rigid_plan_options *options) {
+    pir_rigid_plan *plan = NULL;
+    const pir_status status = pir_rigid_plan_create(input, options, &plan);
+    assert_true((status == PIR_OK) == (plan != NULL));
+    pir_rigid_plan_destroy(plan);
+    return status;
+}
+
+/* Questions that are none: the report says which end, and why. */
+static void test_bad(void **state) {
+    (void)state;
+    struct gate g;
+    pir_report report = {0};
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    options.report = &report;
+    make_gate(1, 1, 1, 2, 2, &g);
+    pir_rigid_plan_input in = g.input;
+    in.from.translation.x = NAN;
+    assert_int_equal(status_of(&in, &options), PIR_ERR_NOT_FINITE);
+    assert_non_null(strstr(report.text, "from"));
+    in = g.input;
+    in.to.rotation = (pir_quat){0, 0, 0, 0};
+    assert_int_equal(status_of(&in, &options), PIR_ERR_ZERO_QUATERNION);
+    in = g.input;
+    in.to.translation = (pir_vec3){.9, 0, 0};
+    assert_int_equal(status_of(&in, &options), PIR_ERR_ARGUMENT);
+    assert_string_equal(report.text, "to: the robot meets an obstacle there");
+    in.to.translation.x = 5;
+    assert_int_equal(status_of(&in, &options), PIR_ERR_ARGUMENT);
+    in = g.input;
+    in.high.z = in.low.z;
+    assert_int_equal(status_of(&in, &options), PIR_ERR_ARGUMENT);
+    in = g.input;
+    in.robot_count = 0;
+    assert_int_equal(status_of(&in, &options), PIR_ERR_EMPTY);
+    options.boxes = 31;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    assert_int_equal(status_of(NULL, NULL), PIR_ERR_ARGUMENT);
+    release_gate(&g);
+}
+
+/* With the name of a file: writes a proof for check/motions.py. */
+static int write_proof(const char *path) {
+    struct gate g;
+    pir_rigid_plan_info info;
+    FILE *file = fopen(path, "w");
+    if (!file)
+        return 1;
+    g.robot = make_tetrahedron(16, &g.shape);
+    make_wall(2, 2, 17, &g);
+    const bool is_good = ask(&g, 32, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
+    release_gate(&g);
+    return fclose(file) != 0 || !is_good;
+}
+
+int main(int count, char **words) {
+    if (count == 2)
+        return write_proof(words[1]);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),  cmocka_unit_test(test_slot),
+                                       cmocka_unit_test(test_tight), cmocka_unit_test(test_budget),
+                                       cmocka_unit_test(test_gates), cmocka_unit_test(test_bad)};
+    const char *told = getenv("PIR_TEST_SEED");
+    const unsigned seed = told ? (unsigned)atoi(told) : 1;
+    srand(seed);
+    printf("seed %u\n", seed);
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
