@@ -9,6 +9,7 @@
 
 #include "cmd.h"
 #include "events_picture.h"
+#include "exact_json.h"
 #include "file.h"
 #include "json.h"
 #include "measure.h"
@@ -68,21 +69,6 @@ static bool read_request(const struct args *args, struct request *request) {
 
 /* --- events --- */
 
-static void add_vertices(struct turn *turn, cJSON *parent, const char *name, const pir_polytope *p, pir_feature face) {
-    uint32_t count = 1;
-    turn->corners[0] = face.index;
-    if (face.kind == PIR_FEATURE_EDGE) {
-        count = 2;
-        pir_polytope_edge(p, face.index, turn->corners);
-    } else if (face.kind == PIR_FEATURE_FACET) {
-        count = pir_polytope_facet_size(p, face.index);
-        pir_polytope_facet(p, face.index, turn->corners);
-    }
-    cJSON *list = json_add_array(&turn->json, parent, name);
-    for (uint32_t i = 0; i < count; i++)
-        json_add_count(&turn->json, list, NULL, pir_polytope_source(p, turn->corners[i]));
-}
-
 static void add_faces(struct turn *turn, cJSON *parent, const char *name, const pir_witness *faces, uint32_t count) {
     static const char letters[] = "-vef";
     cJSON *list = json_add_array(&turn->json, parent, name);
@@ -90,23 +76,9 @@ static void add_faces(struct turn *turn, cJSON *parent, const char *name, const 
         const char kind[3] = {letters[faces[i].p.kind], letters[faces[i].q.kind], '\0'};
         cJSON *entry = json_add_object(&turn->json, list, NULL);
         json_add_text(&turn->json, entry, "kind", kind);
-        add_vertices(turn, entry, "p", turn->operand[0], faces[i].p);
-        add_vertices(turn, entry, "q", turn->operand[1], faces[i].q);
+        json_add_face(&turn->json, entry, "p", turn->operand[0], faces[i].p, turn->corners);
+        json_add_face(&turn->json, entry, "q", turn->operand[1], faces[i].q, turn->corners);
     }
-}
-
-static bool add_polynomial(struct turn *turn, cJSON *parent) {
-    if (pir_events_polynomial_exact(turn->events, turn->polynomial) != PIR_OK)
-        return false;
-    cJSON *list = json_add_array(&turn->json, parent, "polynomial");
-    for (int i = 0; i < 3; i++) {
-        char *digits = malloc(mpz_sizeinbase(turn->polynomial[i], 10) + 2);
-        if (!digits)
-            return false;
-        json_add_text(&turn->json, list, NULL, mpz_get_str(digits, 10, turn->polynomial[i]));
-        free(digits);
-    }
-    return true;
 }
 
 static bool add_event(struct turn *turn, const pir_event *event, const double degrees[2], uint32_t facets) {
@@ -114,8 +86,9 @@ static bool add_event(struct turn *turn, const pir_event *event, const double de
     pir_events_kappa(turn->events, kappa);
     cJSON *entry = json_add_object(&turn->json, turn->list, NULL);
     json_add_numbers(&turn->json, entry, "kappa", kappa, 2);
-    if (!add_polynomial(turn, entry))
+    if (pir_events_polynomial_exact(turn->events, turn->polynomial) != PIR_OK)
         return false;
+    json_add_integers(&turn->json, entry, "polynomial", turn->polynomial, 3);
     json_add_numbers(&turn->json, entry, "angle", degrees, 2);
     json_add_count(&turn->json, entry, "facets", facets);
     add_faces(turn, entry, "lost", event->lost, event->lost_count);
@@ -258,10 +231,8 @@ static bool load(struct turn *turn) {
             complain("%s: a point or a segment, which has no facets to turn", turn->args->positional[k]);
             return false;
         }
-        for (uint32_t f = 0; f < pir_polytope_facet_count(turn->operand[k]); f++) {
-            const uint32_t size = pir_polytope_facet_size(turn->operand[k], f);
-            most = size > most ? size : most;
-        }
+        const uint32_t room = face_room(turn->operand[k]);
+        most = room > most ? room : most;
     }
     turn->corners = malloc(most * sizeof *turn->corners);
     if (!turn->corners)
