@@ -38,6 +38,7 @@
 #include <pirouette/solid_contact.h>
 #include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
+#include <pirouette/sweep.h>
 #include <pirouette/tasks.h>
 #include <pirouette/trimesh.h>
 #include <pirouette/trimesh_batch.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The code of docs/motion.md: a box turns on a box, and against one. */
+/* The code of docs/motion.md: a box turns on a box, against one, and past one. */
 #include <stdio.h>
 
 #include <pirouette/pirouette.h>
@@ -18,9 +18,13 @@ int main(void) {
 
     /* snippet 2 */
 
+    /* snippet 3 */
+
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     if (hit.impact.outcome != PIR_CAST_HIT || !(hit.degrees > 10 && hit.degrees < 90))
+        return 1;
+    if (sweep.outcome != PIR_SWEEP_FREE)
         return 1;
     pir_polytope_release(q);
     pir_polytope_release(p);
