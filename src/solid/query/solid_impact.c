@@ -11,7 +11,7 @@
  * Invariant: of the pairs that were asked the first contact is the best, and of equal ones that of the lowest pieces.
  */
 #include "base/vec.h"
-#include "impact/course.h"
+#include "impact/first_contact.h"
 #include "impact/pair_impact.h"
 #include "solid/query/solid_query.h"
 #include "solid/query/visit.h"
@@ -24,11 +24,7 @@ typedef struct impact_call {
     pir_pair_input input;
     const pir_exact_motion *motion;
     pir_status status;
-
-    bool any; /* whether there is a best */
-    pir_exact_impact best;
-    bool has_root; /* whether `root` is the best's */
-    mpz_t root[3], other[3];
+    pir_first_contact first;
     double radius, error; /* of points of P about the pivot; of distances of boxes and of `radius` */
 } impact_call;
 
@@ -36,9 +32,11 @@ typedef struct impact_call {
  * 2^-32, and so is a time of a way. */
 static double gone_at_best(const impact_call *call) {
     const pir_exact_motion *motion = call->motion;
+    const pir_exact_impact *best = call->first.any ? &call->first.best : NULL;
     if (motion->degrees == 0)
-        return fmin(1, call->best.impact.time + 0x1p-20) * pir_vec_length(motion->way) + call->error;
-    return fmin(2, call->best.degrees * RADIAN + 0x1p-20) * call->radius + call->error;
+        return fmin(1, (best ? best->impact.time : 1) + 0x1p-20) * pir_vec_length(motion->way) + call->error;
+    const double degrees = best ? best->degrees : fabs(motion->degrees);
+    return fmin(2, degrees * RADIAN + 0x1p-20) * call->radius + call->error;
 }
 
 static pir_status ask_pair(impact_call *call, uint32_t i, uint32_t j, pir_exact_impact *ret_impact, mpz_t *root) {
@@ -50,74 +48,23 @@ static pir_status ask_pair(impact_call *call, uint32_t i, uint32_t j, pir_exact_
                             : pir_pair_impact_run(pair, call->workspace, &call->input, call->motion, ret_impact, root);
 }
 
-/* --- the order of contacts --- */
-
-/* The sign of the κ in `other` less that of the best, exactly. */
-static int compare_roots(impact_call *call) {
-    const pir_quadratic other = pir_course_view(call->other), best = pir_course_view(call->root);
-    size_t limbs = 1;
-    for (int k = 0; k < 3; k++) {
-        const size_t most = mpz_size(call->other[k]), own = mpz_size(call->root[k]);
-        limbs = most > limbs ? most : limbs;
-        limbs = own > limbs ? own : limbs;
-    }
-    const pir_allocator *allocator = &call->query->allocator;
-    const uint32_t room = PIR_QUADRATIC_SCRATCH((uint32_t)limbs);
-    mp_limb_t *base = PIR_ZEROED(allocator, mp_limb_t, room);
-    pir_limbs scratch = {base, 0, room};
-    if (!base) {
-        call->status = PIR_ERR_MEMORY;
-        return 0;
-    }
-    const int order = pir_quadratic_compare(&other, &best, &scratch);
-    PIR_FREE(allocator, base, room);
-    return order;
-}
-
-/* Whether a hit comes before the best, 1, at the same κ, 0, or after it, −1. */
-static int order_of(impact_call *call, const pir_exact_impact *hit) {
-    const pir_exact_impact *best = &call->best;
-    if (hit->kappa[0] > best->kappa[1])
-        return 1;
-    if (hit->kappa[1] < best->kappa[0])
-        return -1;
+static pir_status ask_again(void *context, const pir_impact *of, mpz_t *root) {
     pir_exact_impact again;
-    if (!call->has_root)
-        call->status = ask_pair(call, best->impact.piece_p, best->impact.piece_q, &again, call->root);
-    call->has_root = call->status == PIR_OK;
-    if (call->status == PIR_OK)
-        call->status = ask_pair(call, hit->impact.piece_p, hit->impact.piece_q, &again, call->other);
-    return call->status == PIR_OK ? compare_roots(call) : 0;
-}
-
-static bool is_lower(const pir_impact *a, const pir_impact *b) {
-    return a->piece_p < b->piece_p || (a->piece_p == b->piece_p && a->piece_q < b->piece_q);
+    return ask_pair(context, of->piece_p, of->piece_q, &again, root);
 }
 
 /* --- pairs --- */
 
-static void take(impact_call *call, const pir_exact_impact *impact) {
-    call->best = *impact;
-    call->any = true;
-    call->has_root = false;
-}
-
-/* A pair of bodies that touch at the start. */
+/* A pair of bodies that touch at the start, of which only that start counts. */
 static double ask_touching(void *context, uint32_t i, uint32_t j) {
     impact_call *call = context;
     pir_exact_impact impact;
     call->status = ask_pair(call, i, j, &impact, NULL);
-    if (call->status != PIR_OK)
-        return -1;
     impact.impact.piece_p = i;
     impact.impact.piece_q = j;
-    const bool hits = impact.impact.outcome == PIR_CAST_HIT && impact.impact.steps == 0;
-    if (!hits && impact.impact.outcome != PIR_CAST_RECEDING)
-        return call->error;
-    const bool best_hits = call->any && call->best.impact.outcome == PIR_CAST_HIT;
-    if (!call->any || hits > best_hits || (hits == best_hits && is_lower(&impact.impact, &call->best.impact)))
-        take(call, &impact);
-    return call->error;
+    if (call->status == PIR_OK && impact.impact.steps == 0)
+        call->status = pir_first_contact_offer(&call->first, &impact);
+    return call->status == PIR_OK ? call->error : -1;
 }
 
 /* A pair of bodies that are apart at the start. */
@@ -125,18 +72,11 @@ static double ask_apart(void *context, uint32_t i, uint32_t j) {
     impact_call *call = context;
     pir_exact_impact hit;
     call->status = ask_pair(call, i, j, &hit, NULL);
-    if (call->status != PIR_OK)
-        return -1;
     hit.impact.piece_p = i;
     hit.impact.piece_q = j;
-    if (hit.impact.outcome == PIR_CAST_HIT) {
-        const int order = call->any ? order_of(call, &hit) : 1;
-        if (call->status != PIR_OK)
-            return -1;
-        if (order > 0 || (order == 0 && is_lower(&hit.impact, &call->best.impact)))
-            take(call, &hit);
-    }
-    return gone_at_best(call);
+    if (call->status == PIR_OK)
+        call->status = pir_first_contact_offer(&call->first, &hit);
+    return call->status == PIR_OK ? gone_at_best(call) : -1;
 }
 
 /* --- the call --- */
@@ -170,22 +110,22 @@ pir_status pir_solid_query_impact(pir_solid_query *query, pir_workspace *workspa
     if (status != PIR_OK)
         return status;
     const bool rests = motion->degrees == 0 && pir_vec_size(motion->way) == 0;
-    call.best = (pir_exact_impact){.kappa = {INFINITY, INFINITY}};
-    mpz_inits(call.root[0], call.root[1], call.root[2], call.other[0], call.other[1], call.other[2], NULL);
+    pir_exact_impact impact = {.kappa = {INFINITY, INFINITY}};
+    pir_first_contact_init(&call.first, &query->allocator, ask_again, &call);
     set_bounds(&call);
     if (state == PIR_INSIDE) {
-        call.best.impact.outcome = PIR_CAST_START_INSIDE;
+        impact.impact.outcome = PIR_CAST_START_INSIDE;
     } else if (state == PIR_BOUNDARY) {
         visit(&call, call.error, ask_touching);
     } else if (rests) {
-        call.best.impact.outcome = PIR_CAST_AT_REST;
+        impact.impact.outcome = PIR_CAST_AT_REST;
     } else {
-        call.best.impact = (pir_impact){.outcome = PIR_CAST_MISS, .time = 1};
-        call.best.degrees = fabs(motion->degrees);
+        impact.impact = (pir_impact){.outcome = PIR_CAST_MISS, .time = 1};
+        impact.degrees = fabs(motion->degrees);
         visit(&call, gone_at_best(&call), ask_apart);
     }
-    mpz_clears(call.root[0], call.root[1], call.root[2], call.other[0], call.other[1], call.other[2], NULL);
     if (call.status == PIR_OK)
-        *ret_impact = call.best;
+        *ret_impact = call.first.any ? call.first.best : impact;
+    pir_first_contact_finish(&call.first);
     return call.status;
 }
