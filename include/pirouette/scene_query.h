@@ -28,6 +28,7 @@
 #define PIROUETTE_SCENE_QUERY_H
 
 #include <pirouette/base.h>
+#include <pirouette/impact.h>
 #include <pirouette/motion.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
@@ -316,6 +317,32 @@ PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape
  */
 PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, const pir_motion *motion, double tolerance,
                                             pir_impact *ret_impact);
+
+/**
+ * When a body of the scene first touches another that it may meet, in a turn about an axis, as a door, or on a way,
+ * exactly: the first contact of all pairs of pieces, as pir_pair_impact tells it. All others are at rest. Contacts of
+ * two pairs are compared as algebraic numbers; of equal ones that of the lowest number of the other body, then of the
+ * lowest pieces, is told.
+ *
+ * PIR_CAST_START_INSIDE comes before all: a piece overlaps another at the start. Then comes PIR_CAST_HIT: at time 0
+ * where pieces touch at the start and overlap just after it. Pieces that touch at the start and do not, as those of a
+ * door on its floor, are passed over: no later contact of the same two is looked for. PIR_CAST_RECEDING is told where
+ * there are such and nothing else is met.
+ *
+ * Triangles of surfaces are met as flat pieces, from both sides.
+ *
+ * body        the id of a body without a surface or a radius that is no sensor.
+ * motion      its own, in the world.
+ * ret_impact  body and pieces are set, and the caller's numbers.
+ *
+ * Cost: that of a query of a scene for all that may be in the way, and of pir_pair_impact for each of them; for each
+ * tie O(1) of these again, in exact arithmetic.
+ *
+ * Errors: those of a query of a scene and of pir_pair_impact; PIR_ERR_ARGUMENT also where what may be in the way has a
+ * radius, or is flat as the body's own piece is; PIR_ERR_LIMIT also for a way or a pivot beyond 2^60.
+ */
+PIR_API pir_status pir_scene_first_contact(pir_scene *scene, uint32_t body, const pir_exact_motion *motion,
+                                           pir_exact_impact *ret_impact);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The code of docs/motion.md: a box turns on a box, against one, and past one. */
+/* The code of docs/motion.md: a box turns on a box, against one, past one, and in a scene. */
 #include <stdio.h>
 
 #include <pirouette/pirouette.h>
@@ -18,7 +18,25 @@ int main(void) {
 
     /* snippet 2 */
 
+    pir_scene *scene = NULL;
+    pir_body_options body = pir_body_options_default();
+    uint32_t wall, leaf;
+    body.piece_count = 1;
+    body.pieces = &q;
+    if (pir_scene_create(NULL, &scene) != PIR_OK || pir_scene_add(scene, &body, &wall) != PIR_OK)
+        return 1;
+    body.pieces = &p;
+    body.pose.translation = (pir_vec3){3, 0, 0};
+    if (pir_scene_add(scene, &body, &leaf) != PIR_OK)
+        return 1;
+
     /* snippet 3 */
+
+    pir_scene_destroy(scene);
+    if (stop.impact.outcome != PIR_CAST_MISS)
+        return 1;
+
+    /* snippet 4 */
 
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
