@@ -27,6 +27,7 @@
 #include <pirouette/motion.h>
 #include <pirouette/pair.h>
 #include <pirouette/solid.h>
+#include <pirouette/sweep.h>
 #include <pirouette/workspace.h>
 
 #ifdef __cplusplus
@@ -140,6 +141,23 @@ PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *w
  */
 PIR_API pir_status pir_solid_query_impact(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *input,
                                           const pir_exact_motion *motion, pir_exact_impact *ret_impact);
+
+/**
+ * Whether two bodies are free all along a motion of both from poses to poses, or meet, as pir_pair_sweep: of all pairs
+ * of pieces that may come to each other. `from` is the least of those that are not free. `to` is the first time at
+ * which a pair is proven to share a point, or else the last of what is undecided; `queries` are those of all pairs.
+ *
+ * workspace      scratch.
+ * first, second  the poses at times 0 and 1, in the world; the radii of `first` count, cutoff and margin do not.
+ * budget         the most distances that are asked for of a pair of pieces; 0 for PIR_SWEEP_BUDGET.
+ *
+ * Cost: that of pir_pair_sweep for each pair of pieces that is no farther apart at the start than points of both go
+ * until they meet.
+ *
+ * Errors: those of pir_pair_sweep.
+ */
+PIR_API pir_status pir_solid_query_sweep(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *first,
+                                         const pir_pair_input *second, uint32_t budget, pir_sweep_result *ret_sweep);
 
 /** A facet of the sum of two pieces, which P may not move into: a facet of one and a vertex of the other, or an edge
  * of each. */

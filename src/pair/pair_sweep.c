@@ -290,6 +290,7 @@ pir_status pir_pair_sweep(pir_pair *pair, pir_workspace *workspace, const pir_pa
     sweep_job job = {.pair = pair, .workspace = workspace, .budget = budget > 0 ? budget : PIR_SWEEP_BUDGET};
     job.at = *first;
     job.at.cutoff = HUGE_VAL;
+    job.at.margin = 0;
     pir_status status = pir_pair_check(&job.at);
     if (status == PIR_OK)
         status = set_mover(&job.p, pair->p, (const pir_pose[]){first->pose_p, second->pose_p}, first->radius_p);

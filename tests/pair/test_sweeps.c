@@ -184,15 +184,17 @@ static pir_vec3 random_place(test_random *random, bool aligned, double size) {
     return (pir_vec3){s * v.x, s * v.y, s * v.z};
 }
 
-/* Poses, of some kinds: any; turns alone; ways alone; both bodies alike; small motions; sliding just above. */
+/* Poses, of some kinds: any; turns alone; ways alone; both alike; small motions; sliding just above; far away. */
 static void random_motion(test_random *random, mover *p, mover *q) {
     const bool aligned = test_random_below(random, 3) == 0;
-    const uint32_t kind = test_random_below(random, 6);
+    const uint32_t kind = test_random_below(random, 7);
     mover *const both[2] = {p, q};
     for (int k = 0; k < 2; k++)
         for (int end = 0; end < 2; end++) {
             pir_pose *pose = &both[k]->pose[end];
             *pose = (pir_pose){random_turn(random, aligned), random_place(random, aligned, k == 0 ? 5 : 1)};
+            if (kind == 6)
+                pose->translation.y += 0x1p20;
             if (end == 1 && kind == 1)
                 pose->translation = both[k]->pose[0].translation;
             if (end == 1 && (kind == 2 || kind == 5))
