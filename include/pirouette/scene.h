@@ -27,6 +27,21 @@
  * that asks are left out as well. An event then has the contacts of one normal with one piece; one whose contacts are
  * all ghosts has none. Without it each two pieces have the contacts of their pair, whatever is beside them.
  *
+ * Manifolds told again. With options.reuse above 0 the contacts of a pair are told again while its bodies have moved
+ * little relative to each other since they were found: points move with their bodies. The states of all pairs are exact
+ * all the same. A distance that was found earlier proves them, or else the pair is asked anew. Each event has an
+ * `error` e, at most options.reuse, and 0 where all that it tells is of this update:
+ *
+ *   - Relative to one piece no point of the other has moved farther than e since what is told was found.
+ *   - Of two convex pieces that are in no union, the signed distance is within e of that of the poses of this
+ *     update, and has its sign. Along no direction are they farther apart than along the normal by more than 2e.
+ *   - Contacts are those of the poses then. Each point is still on its body, where it was; the distance of a contact is
+ *     that of its points now, along the normal, and was another by at most e. They need not be over each other any more
+ *     than e allows. Which corners a manifold of this update would have is not told.
+ *   - Contacts with surfaces, and of unions, are told again while the piece is in contact with the same pieces and
+ *     triangles. Which of them are ghosts is that of the poses then. The distance of an event is that of its first
+ *     contact.
+ *
  * A pair needs two bodies, one of them moving, and masks that match both ways: the category of each is in the mask of
  * the other. A sensor is told of what overlaps it, and has no contacts: of kinematic bodies too, whatever its own kind.
  * Two sensors do not meet, nor do two surfaces.
@@ -36,7 +51,8 @@
  * given again. Numbers are small, so they may index arrays of the caller (pir_body_number).
  *
  * Determinism: events, their order and all their numbers depend on the poses, on the bodies and on which pieces were in
- * contact before: not on threads, the history of the scene, nor the machine. Events are in the order of body_p, body_q,
+ * contact before: not on threads, the history of the scene, nor the machine. With options.reuse they depend on what is
+ * kept of contacts as well, which a snapshot holds (scene_file.h). Events are in the order of body_p, body_q,
  * piece_p, piece_q: of bodies by number, of one number by generation.
  *
  * Frame: the world. Lengths in the unit of the polytopes' coordinates.
@@ -46,7 +62,8 @@
  * first meets another of a size, and does not count.
  *
  * Memory that runs out, or the budget: the call is PIR_ERR_MEMORY, and the scene is as it was before. A scene whose
- * bodies and contacts have been as many before allocates nothing.
+ * bodies and contacts have been as many before allocates nothing; with options.reuse, contacts in manifolds of each
+ * size.
  *
  * Threads: a scene belongs to one thread at a time. With options.threads above 1 it uses others within a call, and
  * calls its allocator and those of the polytopes from them: its own one at a time, those of polytopes at once, as pairs
@@ -105,9 +122,13 @@ typedef struct pir_scene_options {
     /** NULL, or a clock in nanoseconds, by which updates are told how long their parts take. */
     uint64_t (*clock)(void *context);
     void *clock_context;
+    /** A length ≥ 0: manifolds of bodies that moved by at most this since may be told again; 0 for never. Above 0 of
+        PIR_SCENE_MANIFOLDS alone. See above. */
+    double reuse;
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, approach, unions or report, one thread, no shapes kept. O(1). */
+/** malloc's memory, no budget, manifolds, no margin, approach, unions, report or reuse, one thread, no shapes kept.
+    O(1). */
 static inline pir_scene_options pir_scene_options_default(void) {
     pir_scene_options options;
     memset(&options, 0, sizeof options);
@@ -122,8 +143,8 @@ static inline pir_scene_options pir_scene_options_default(void) {
  *
  * Cost: O(threads).
  *
- * Errors: PIR_ERR_ARGUMENT (a margin below 0 or with PIR_SCENE_STATES, threads out of range), PIR_ERR_NOT_FINITE (the
- * margin), PIR_ERR_MEMORY.
+ * Errors: PIR_ERR_ARGUMENT (a margin below 0 or with PIR_SCENE_STATES, a reuse below 0 or without manifolds, threads
+ * out of range), PIR_ERR_NOT_FINITE (the margin, the reuse), PIR_ERR_MEMORY.
  */
 PIR_API pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_scene);
 
@@ -387,6 +408,9 @@ typedef struct pir_scene_event {
     uint32_t contact_count;
     const pir_contact
         *contacts; /**< of the scene's; ids are stable as of pir_pair_manifold; NULL where there are none */
+    /** With options.reuse: no point of one piece has moved farther than this relative to the other since what is told
+        here was found; 0 where all of it is of this update. At most options.reuse. See above. */
+    double error;
 } pir_scene_event;
 
 /**
@@ -420,7 +444,7 @@ typedef struct pir_scene_statistics {
     uint32_t triangles;      /**< of surfaces that are in pairs */
     uint32_t pairs;          /**< of pieces whose boxes in the tree meet */
     uint32_t looked;         /**< pairs that the last update looked at */
-    uint32_t asked;          /**< of these, those that needed a query */
+    uint32_t asked;          /**< of these, those that needed a query, or with options.reuse an earlier answer */
     uint32_t replaced;       /**< pieces whose box left its margin in the tree */
     size_t bytes;            /**< of the scene's memory in use */
     size_t peak;             /**< the most that has been */
@@ -436,6 +460,7 @@ typedef struct pir_scene_profile {
     uint32_t looked, asked;           /**< pairs that were looked at, and those that were asked */
     uint32_t began, persisted, ended; /**< events of each kind */
     uint32_t contacts;                /**< of all events */
+    uint32_t reused;                  /**< events that tell of what was found before: their error is above 0 */
     /** With options.profile: how many questions were answered by each way (pir_pair_statistics); 0 without. */
     uint64_t by_proof, by_walk, by_nearest, by_depth, by_whole, manifolds;
     /** With options.clock, in nanoseconds: poses and boxes; the tree; pairs found; looks; questions; unions, surfaces

@@ -25,7 +25,8 @@ extern "C" {
 PIR_API size_t pir_scene_serialised_size(const pir_scene *scene);
 
 /**
- * Writes bodies, poses and contacts, with a version and a checksum.
+ * Writes bodies, poses and contacts, with a version and a checksum; of a scene with options.reuse also what contacts
+ * keep.
  *
  * memory, size  the caller's, of exactly pir_scene_serialised_size bytes.
  *
@@ -37,8 +38,9 @@ PIR_API pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t si
 
 /**
  * Brings a scene to the state of a snapshot. The bytes are not trusted: what they say of poses is checked as in an
- * update. Contacts that they claim are only what the next update compares with. The list of events is empty afterwards,
- * also where the call fails.
+ * update. Contacts that they claim are only what the next update compares with. What contacts keep is checked for its
+ * form alone: a scene with options.reuse tells it again as if it had been found there. The list of events is empty
+ * afterwards, also where the call fails.
  *
  * A body of the scene stays where it has the id, the kind, the radius and the shape of one of the snapshot; poses,
  * categories, masks, users, and whether it is a sensor or disabled, become what they were. Others are dropped without

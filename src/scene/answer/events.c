@@ -10,6 +10,7 @@
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
 #include "scene/change/changes.h"
+#include "scene/reuse/keep.h"
 #include "scene/world/grow.h"
 
 /* How many events are worth another thread. */
@@ -121,6 +122,7 @@ static pir_scene_event event_of(const pir_scene *scene, const pir_scene_item *it
     event.normal = found->normal;
     event.witness = found->witness;
     event.contact_count = found->count;
+    event.error = found->error;
     if (found->count > 0)
         event.contacts = item->worker->contact + found->first;
     if (scene->approach && found->count > 0)
@@ -168,6 +170,8 @@ pir_status pir_scene_make_events(pir_scene *scene) {
         !PIR_GROW(a, lists->work, lists->work_capacity, most) ||
         !PIR_GROW(a, scene->event, scene->event_capacity, most))
         return PIR_ERR_MEMORY;
+    if (scene->reuse > 0 && pir_reserve_records(scene) != PIR_OK)
+        return PIR_ERR_MEMORY;
     uint32_t count = list_items(scene);
     if (count > 1)
         pir_scene_sort_items(lists->item, lists->work, count);
@@ -179,7 +183,11 @@ pir_status pir_scene_make_events(pir_scene *scene) {
             const bool was = pair->touching;
             pair->touching = lists->item[i].found != NULL;
             scene->touching = scene->touching + pair->touching - was;
+            if (!pair->touching)
+                pir_scene_pairs_forget(&scene->pairs, lists->item[i].pair);
         }
+    if (scene->reuse > 0)
+        pir_keep_found(scene);
     scene->gone_count = 0;
     scene->event_count = count;
     return PIR_OK;

@@ -14,6 +14,7 @@
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/unions.h"
+#include "scene/reuse/carried.h"
 #include "scene/world/grow.h"
 #include "scene/world/piece_facets.h"
 
@@ -41,6 +42,7 @@ struct touched {
     double radius;        /* of its bodies */
     uint32_t surfaces;    /* of the question: those of bodies, before the facets of pieces */
     uint32_t first_found; /* of the worker's */
+    uint64_t number;      /* of all unions of the piece in this update */
 };
 
 static uint32_t body_of(const pir_scene_item *item) {
@@ -187,6 +189,7 @@ static bool add_contact(const struct touched *touched, pir_scene_found *found, c
     worker->contact[worker->contact_count++] =
         (pir_contact){piece_is_p ? own : other, piece_is_p ? other : own, from->distance, from->id};
     if (found->count++ == 0) {
+        found->error = 0;
         found->distance = from->distance;
         found->normal = piece_is_p ? from->normal : pir_vec_scale(from->normal, -1);
     }
@@ -267,14 +270,42 @@ static pir_status find_union(struct touched *touched) {
     return status == PIR_OK ? take_others(touched, near) : status;
 }
 
+/* Notes what of each pair is to be kept: all of its contacts with unions. */
+static void note_items(const struct touched *touched) {
+    for (uint32_t i = 0; i < touched->count; i++) {
+        pir_scene_news *news = pir_scene_news_of(touched->scene, touched->item[i].found);
+        news->union_number = touched->number;
+        news->members = touched->count;
+    }
+}
+
+/* Counts the room that events from number `first` on take in records. */
+static void count_room(const struct touched *touched, uint32_t first) {
+    const pir_scene_worker *worker = touched->worker;
+    for (uint32_t k = first; k < worker->on_surface_count; k++) {
+        const pir_scene_found *found = &worker->on_surface[k];
+        pir_scene_news_of(touched->scene, found)->union_room += found->count > 0 ? found->count : 1;
+    }
+}
+
 static pir_status find(struct touched *touched) {
+    const uint32_t first = touched->worker->on_surface_count;
     pir_status status = PIR_OK;
+    if (touched->scene->reuse > 0) {
+        bool carried;
+        status = pir_carry_union(touched->scene, touched->worker, touched->item, touched->count, &carried);
+        if (carried)
+            return status;
+        note_items(touched);
+    }
     pir_scene_group_items(touched->scene, touched->item, touched->count);
     for (uint32_t i = 0; i < touched->count && status == PIR_OK; i++) {
         touched->group = i;
         if (touched->item[i].group == i)
             status = find_union(touched);
     }
+    if (touched->scene->reuse > 0)
+        count_room(touched, first);
     return status;
 }
 
@@ -284,7 +315,8 @@ static void find_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t
         struct touched touched = {.scene = scene,
                                   .worker = &scene->worker[task],
                                   .item = &scene->lists.item[run[i]],
-                                  .count = run[i + 1] - run[i]};
+                                  .count = run[i + 1] - run[i],
+                                  .number = scene->unions_asked + i + 1};
         pir_scene_worker_note(&scene->worker[task], find(&touched), i);
     }
 }
@@ -340,6 +372,7 @@ pir_status pir_scene_find_surface_contacts(pir_scene *scene) {
     lists->run[runs] = count;
     pir_scene_workers_begin(scene);
     pir_scene_share(scene, runs, WORTH_MORE, find_items);
+    scene->unions_asked += runs;
     const pir_status status = pir_scene_workers_status(scene);
     return status == PIR_OK ? PIR_OK : fail(scene, status);
 }

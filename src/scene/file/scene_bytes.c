@@ -8,7 +8,7 @@
 #include "base/report.h"
 #include "scene/answer/events.h"
 #include "scene/change/changes.h"
-#include "scene/file/snapshot.h"
+#include "scene/file/kept_bytes.h"
 #include "scene/world/grow.h"
 
 static void put(uint8_t **at, uint64_t value, int bytes) {
@@ -49,15 +49,24 @@ static pir_snapshot_counts counts_of(const pir_scene *scene) {
     return counts;
 }
 
-size_t pir_scene_serialised_size(const pir_scene *scene) {
-    const pir_snapshot_counts counts = counts_of(scene);
-    return (size_t)pir_snapshot_size(&counts);
+/* The bytes of all that counts tell, and of what contacts keep. */
+static size_t size_of(const pir_scene *scene, const pir_snapshot_counts *counts) {
+    size_t size = (size_t)pir_snapshot_size(counts);
+    for (uint32_t i = 0; scene->reuse > 0 && i < scene->pairs.capacity; i++)
+        if (scene->pairs.at[i].touching)
+            size += (size_t)pir_kept_size(&scene->pairs.at[i]);
+    return size;
 }
 
-static void put_header(uint8_t **at, const pir_snapshot_counts *counts) {
+size_t pir_scene_serialised_size(const pir_scene *scene) {
+    const pir_snapshot_counts counts = counts_of(scene);
+    return size_of(scene, &counts);
+}
+
+static void put_header(uint8_t **at, const pir_scene *scene, const pir_snapshot_counts *counts) {
     memcpy(*at, PIR_SNAPSHOT_MAGIC, 8);
     *at += 8;
-    put(at, PIR_SNAPSHOT_VERSION, 4);
+    put(at, scene->reuse > 0 ? PIR_SNAPSHOT_LAST : PIR_SNAPSHOT_VERSION, 4);
     put(at, counts->numbers, 4);
     put(at, counts->bodies, 4);
     put(at, counts->users, 4);
@@ -129,25 +138,54 @@ static void put_contacts(uint8_t **at, const pir_scene *scene, uint32_t count) {
     }
 }
 
+/* Labels records of unions by the first of the sorted contacts that is in it. */
+static void label_unions(pir_scene *scene, uint32_t contacts) {
+    pir_scene_item *item = scene->lists.item, *of_union = item + contacts;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < contacts; i++) {
+        const pir_kept_record *united = scene->pairs.at[item[i].pair].united;
+        if (united)
+            of_union[count++] = (pir_scene_item){.key = {united->union_number, i}, .pair = item[i].pair};
+    }
+    if (count > 1)
+        pir_scene_sort_items(of_union, scene->lists.work, count);
+    for (uint32_t i = 0, first = 0; i < count; i++) {
+        if (of_union[i].key.bodies != of_union[first].key.bodies)
+            first = i;
+        scene->pairs.at[of_union[i].pair].united->label = (uint32_t)of_union[first].key.pieces;
+    }
+}
+
+static void put_kept(uint8_t **at, pir_scene *scene, uint32_t contacts) {
+    label_unions(scene, contacts);
+    for (uint32_t i = 0; i < contacts; i++) {
+        const pir_scene_pair *pair = &scene->pairs.at[scene->lists.item[i].pair];
+        pir_put_kept(at, pair, pair->united ? pair->united->label : 0);
+    }
+}
+
 pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t size) {
     const pir_status status = pir_scene_given(scene, "snapshot", memory ? NULL : "memory");
     if (status != PIR_OK)
         return status;
     const pir_snapshot_counts counts = counts_of(scene);
-    if (size != pir_snapshot_size(&counts))
+    if (size != size_of(scene, &counts))
         return pir_fail(scene->report, PIR_ERR_ARGUMENT, "snapshot: room for %zu bytes, not the %zu that it takes",
-                        size, (size_t)pir_snapshot_size(&counts));
+                        size, size_of(scene, &counts));
     pir_scene_lists *lists = &scene->lists;
-    const uint32_t items = counts.contacts + counts.ends;
-    if (!PIR_GROW(&scene->allocator, lists->item, lists->item_capacity, items) ||
+    // unions are sorted once all else is written
+    const uint32_t items = counts.contacts + counts.ends, room = items + (scene->reuse > 0 ? counts.contacts : 0);
+    if (!PIR_GROW(&scene->allocator, lists->item, lists->item_capacity, room) ||
         !PIR_GROW(&scene->allocator, lists->work, lists->work_capacity, items))
         return pir_fail(scene->report, PIR_ERR_MEMORY, "snapshot: no memory to sort %u contacts",
                         (unsigned)counts.contacts);
     sort_contacts(scene);
     uint8_t *at = memory;
-    put_header(&at, &counts);
+    put_header(&at, scene, &counts);
     put_bodies(&at, scene, counts.numbers);
     put_contacts(&at, scene, items);
+    if (scene->reuse > 0)
+        put_kept(&at, scene, counts.contacts);
     at = (uint8_t *)memory + PIR_SNAPSHOT_CHECKSUM_AT;
     put(&at, pir_snapshot_checksum(memory, size), 8);
     return PIR_OK;

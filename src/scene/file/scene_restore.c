@@ -8,6 +8,7 @@
 #include "scene/answer/candidates.h"
 #include "scene/answer/motion.h"
 #include "scene/change/changes.h"
+#include "scene/file/kept_bytes.h"
 #include "scene/file/target_bodies.h"
 
 static pir_status read_header(const uint8_t *data, size_t size, pir_snapshot *s) {
@@ -15,14 +16,15 @@ static pir_status read_header(const uint8_t *data, size_t size, pir_snapshot *s)
         return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: no snapshot of a scene");
     const uint8_t *at = data + 8;
     const uint32_t version = (uint32_t)pir_snapshot_take(&at, 4);
-    if (version != PIR_SNAPSHOT_VERSION)
-        return pir_fail(s->report, PIR_ERR_VERSION, "snapshot: version %u, not %u", (unsigned)version,
-                        PIR_SNAPSHOT_VERSION);
+    if (version != PIR_SNAPSHOT_VERSION && version != PIR_SNAPSHOT_LAST)
+        return pir_fail(s->report, PIR_ERR_VERSION, "snapshot: version %u, not %u or %u", (unsigned)version,
+                        PIR_SNAPSHOT_VERSION, PIR_SNAPSHOT_LAST);
     uint32_t *const count[5] = {&s->counts.numbers, &s->counts.bodies, &s->counts.users, &s->counts.contacts,
                                 &s->counts.ends};
     for (int k = 0; k < 5; k++)
         *count[k] = (uint32_t)pir_snapshot_take(&at, 4);
-    if (size != pir_snapshot_size(&s->counts))
+    const uint64_t least = pir_snapshot_size(&s->counts);
+    if (size < least || (version == PIR_SNAPSHOT_VERSION && size != least))
         return pir_fail(s->report, PIR_ERR_FORMAT, "snapshot: %zu bytes are not those of %u bodies and %u contacts",
                         size, (unsigned)s->counts.bodies, (unsigned)s->counts.contacts);
     if (pir_snapshot_take(&at, 8) != pir_snapshot_checksum(data, size))
@@ -32,6 +34,8 @@ static pir_status read_header(const uint8_t *data, size_t size, pir_snapshot *s)
     s->user = s->body + (size_t)s->counts.bodies * PIR_SNAPSHOT_BODY;
     s->contact = s->user + (size_t)8 * s->counts.users;
     s->end = s->contact + (size_t)s->counts.contacts * PIR_SNAPSHOT_CONTACT;
+    s->kept = version == PIR_SNAPSHOT_LAST ? data + least : NULL;
+    s->behind = data + size;
     return PIR_OK;
 }
 
@@ -110,6 +114,42 @@ static pir_status read_contacts(pir_scene *scene, const pir_snapshot *s) {
     return PIR_OK;
 }
 
+/* Records of all contacts, in a list. */
+static pir_status read_kept(pir_scene *scene, const pir_snapshot *s, pir_kept_record **ret_first) {
+    pir_kept_reader reader = {.at = s->kept, .end = s->behind, .last = ret_first, .keeps = scene->reuse > 0};
+    pir_status status = PIR_OK;
+    uint32_t i = 0;
+    for (; s->kept && i < s->counts.contacts && status == PIR_OK; i++)
+        status = pir_take_kept(scene, &reader, i, &scene->pairs.at[scene->lists.asked[i]]);
+    if (s->kept && status == PIR_OK && reader.at != reader.end)
+        status = PIR_ERR_FORMAT;
+    if (status == PIR_ERR_FORMAT)
+        return pir_fail(s->report, status, "snapshot: what contact %u keeps cannot be", (unsigned)(i > 0 ? i - 1 : 0));
+    return status == PIR_OK ? status : pir_fail(s->report, status, "snapshot: no memory for what contacts keep");
+}
+
+/* Gives a list of records back. */
+static void give_back(pir_scene *scene, pir_kept_record *record) {
+    while (record) {
+        pir_kept_record *next = record->next;
+        pir_kept_pool_give(&scene->pairs.kept, record);
+        record = next;
+    }
+}
+
+/* Puts a list of records in place of those of pairs. */
+static void put_kept(pir_scene *scene, const pir_snapshot *s, pir_kept_record *record) {
+    for (uint32_t i = 0; i < scene->pairs.capacity; i++)
+        pir_scene_pairs_forget(&scene->pairs, i);
+    while (record) {
+        pir_kept_record *next = record->next;
+        pir_scene_pair *pair = &scene->pairs.at[scene->lists.asked[record->label]];
+        *(record->union_number > 0 ? &pair->united : &pair->kept) = record;
+        record = next;
+    }
+    scene->unions_asked += s->counts.contacts;
+}
+
 static void read_ends(pir_scene *scene, const pir_snapshot *s) {
     const uint8_t *at = s->end;
     for (uint32_t i = 0; i < s->counts.ends; i++) {
@@ -125,7 +165,8 @@ static void read_ends(pir_scene *scene, const pir_snapshot *s) {
 /* --- the call --- */
 
 /* All that cannot fail. */
-static void commit(pir_scene *scene, const pir_snapshot *s) {
+static void commit(pir_scene *scene, const pir_snapshot *s, pir_kept_record *kept) {
+    put_kept(scene, s, kept);
     for (uint32_t i = 0; i < scene->pairs.capacity; i++)
         scene->pairs.at[i].touching = false;
     for (uint32_t i = 0; i < s->counts.contacts; i++)
@@ -159,11 +200,15 @@ pir_status pir_scene_restore(pir_scene *scene, const void *data, size_t size, pi
         pir_fail(s.report, status, "snapshot: no memory for pairs");
     else
         status = read_contacts(scene, &s);
+    pir_kept_record *kept = NULL;
+    if (status == PIR_OK)
+        status = read_kept(scene, &s, &kept);
     if (status != PIR_OK) {
+        give_back(scene, kept);
         pir_scene_move_back(scene);
         pir_target_undo(scene);
         return status;
     }
-    commit(scene, &s);
+    commit(scene, &s, kept);
     return PIR_OK;
 }

@@ -10,6 +10,7 @@
  *     per contact, by its key:   u64 of bodies, of pieces
  *     per contact that ended since the last update, by its key: u64 of bodies, of pieces, user[2], piece user[2],
  *                                whether of a sensor
+ *     in version 4, of scenes with options.reuse: what each contact keeps (kept_bytes.h)
  *
  * A key holds the ids of both bodies, their numbers in front, and the numbers of both pieces (scene/world/scene.h). The
  * checksum is FNV-1a over words of eight bytes.
@@ -20,7 +21,8 @@
 #include "scene/world/scene.h"
 
 #define PIR_SNAPSHOT_MAGIC       "PIRSCENE"
-#define PIR_SNAPSHOT_VERSION     3u
+#define PIR_SNAPSHOT_VERSION     3u /* without what contacts keep */
+#define PIR_SNAPSHOT_LAST        4u /* with it */
 #define PIR_SNAPSHOT_HEADER      40u
 #define PIR_SNAPSHOT_CHECKSUM_AT 32u
 #define PIR_SNAPSHOT_BODY        112u

@@ -15,6 +15,7 @@
 typedef struct pir_snapshot {
     pir_snapshot_counts counts;
     const uint8_t *generation, *body, *user, *contact, *end;
+    const uint8_t *kept, *behind; /* what contacts keep, or NULL; the end of all bytes */
     pir_report *report;
 } pir_snapshot;
 

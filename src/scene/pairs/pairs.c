@@ -7,8 +7,11 @@ void pir_scene_pairs_init(pir_scene_pairs *pairs) {
 }
 
 void pir_scene_pairs_finish(pir_scene_pairs *pairs, const pir_allocator *allocator) {
-    for (uint32_t i = 0; i < pairs->capacity; i++)
+    for (uint32_t i = 0; i < pairs->capacity; i++) {
         pir_pair_destroy(pairs->at[i].asked);
+        pir_scene_pairs_forget(pairs, i);
+    }
+    pir_kept_pool_finish(&pairs->kept, allocator);
     for (uint32_t i = 0; i < pairs->pooled; i++)
         pir_pair_destroy(pairs->pool[i]);
     PIR_FREE(allocator, pairs->at, pairs->capacity);
@@ -75,9 +78,16 @@ uint32_t pir_scene_pairs_add(pir_scene_pairs *pairs, const pir_allocator *alloca
     return pair;
 }
 
+void pir_scene_pairs_forget(pir_scene_pairs *pairs, uint32_t pair) {
+    pir_kept_pool_give(&pairs->kept, pairs->at[pair].kept);
+    pir_kept_pool_give(&pairs->kept, pairs->at[pair].united);
+    pairs->at[pair].kept = pairs->at[pair].united = NULL;
+}
+
 void pir_scene_pairs_drop(pir_scene_pairs *pairs, uint32_t pair, uint32_t *first_p, uint32_t *first_q) {
     unlink_end(pairs, pair, 0, first_p);
     unlink_end(pairs, pair, 1, first_q);
+    pir_scene_pairs_forget(pairs, pair);
     if (pairs->at[pair].asked)
         pairs->pool[pairs->pooled++] = pairs->at[pair].asked;
     pairs->at[pair] = (pir_scene_pair){.next = {pairs->unused}};

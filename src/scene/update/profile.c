@@ -28,5 +28,6 @@ void pir_profile_end(pir_scene *scene) {
     for (uint32_t i = 0; i < scene->event_count; i++) {
         (*of[scene->event[i].kind])++;
         profile->contacts += scene->event[i].contact_count;
+        profile->reused += scene->event[i].error > 0;
     }
 }

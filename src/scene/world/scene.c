@@ -27,6 +27,13 @@ static pir_status check(const pir_scene_options *options) {
     if (options->detail == PIR_SCENE_STATES && options->margin > 0)
         return pir_fail(report, PIR_ERR_ARGUMENT, "scene: a margin of %g needs distances, and it has states alone",
                         options->margin);
+    if (!isfinite(options->reuse))
+        return pir_fail(report, PIR_ERR_NOT_FINITE, "scene: its reuse is not finite");
+    if (options->reuse < 0)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: its reuse is %g, below 0", options->reuse);
+    if (options->reuse > 0 && options->detail != PIR_SCENE_MANIFOLDS)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "scene: a reuse of %g needs manifolds, and it has none",
+                        options->reuse);
     if (options->threads < 1 || options->threads > THREADS_MAX)
         return pir_fail(report, PIR_ERR_ARGUMENT, "scene: %u threads, not 1 to %d", (unsigned)options->threads,
                         THREADS_MAX);
@@ -75,6 +82,7 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     scene->for_triangles = pir_blocks_allocator(&scene->blocks);
     scene->detail = used.detail;
     scene->margin = used.margin;
+    scene->reuse = used.reuse;
     scene->approach = used.approach;
     scene->unions = used.unions;
     scene->keep_shapes = used.keep_shapes;
@@ -128,6 +136,7 @@ void pir_scene_destroy(pir_scene *scene) {
         pir_workspace_destroy(scene->worker[i].workspace);
         PIR_FREE(a, scene->worker[i].noted, scene->worker[i].noted_capacity);
         PIR_FREE(a, scene->worker[i].found, scene->worker[i].found_capacity);
+        PIR_FREE(a, scene->worker[i].news, scene->worker[i].news_capacity);
         PIR_FREE(a, scene->worker[i].contact, scene->worker[i].contact_capacity);
         PIR_FREE(a, scene->worker[i].on_surface, scene->worker[i].on_surface_capacity);
         PIR_FREE(a, scene->worker[i].surface, scene->worker[i].surface_capacity);

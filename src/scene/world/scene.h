@@ -35,7 +35,21 @@ typedef struct pir_scene_found {
     double distance;
     pir_vec3 normal;
     pir_witness witness;
+    double error;  /* how far the bodies have moved since what the event tells was found; with options.reuse */
+    uint32_t news; /* and in which worker's list the rest of it is, under which number */
+    uint32_t news_worker;
 } pir_scene_found;
+
+/* The part of a contact that records are brought up to date with: of scenes with options.reuse. */
+typedef struct pir_scene_news {
+    pir_seen seen;                  /* where the bodies are now */
+    pir_vec3 told_normal;           /* of an answer that is new, where contacts are not */
+    pir_vec3 told_point[2];         /* and its points */
+    bool new_answer, new_contacts;  /* whether the pair was asked for these */
+    uint32_t union_room, members;   /* of a union that was asked anew: contacts for the record; its pairs */
+    uint64_t union_number;          /* or 0 */
+    pir_kept_record *kept, *united; /* records with more room than those of the pair, or NULL */
+} pir_scene_news;
 
 /* A pair to be asked, or else one whose contact has ended. */
 typedef struct pir_scene_noted {
@@ -50,6 +64,8 @@ typedef struct pir_scene_worker {
     uint32_t noted_capacity, noted_count, looked;
     pir_scene_found *found;
     uint32_t found_capacity, found_count;
+    pir_scene_news *news; /* of these, in their order, where manifolds may be told again */
+    uint32_t news_capacity;
     pir_scene_found *on_surface; /* those of unions: surfaces, pieces side by side */
     uint32_t on_surface_capacity, on_surface_count;
     pir_contact *contact;
@@ -158,7 +174,7 @@ struct pir_scene {
     pir_blocks blocks;       /* of the polytopes of triangles */
     pir_allocator for_triangles;
     pir_scene_detail detail;
-    double margin;
+    double margin, reuse;
     bool approach, unions, keep_shapes;
     pir_report *report; /* the caller's, or NULL */
     uint32_t threads;
@@ -179,6 +195,7 @@ struct pir_scene {
     uint32_t gone_capacity, gone_count, touching;
 
     uint64_t update, visit; /* numbers of the last ones */
+    uint64_t unions_asked;  /* numbers up to this have been given to unions */
     bool profiles;
     uint64_t (*clock)(void *context); /* or NULL */
     void *clock_context;
@@ -198,6 +215,16 @@ pir_box pir_scene_fat_box(const pir_box *tight, pir_vec3 way);
 /* The width by which boxes of pieces reach beyond these on each side: the radius, and half of the margin. */
 static inline double pir_scene_around(const pir_scene *scene, const pir_scene_body *body) {
     return body->radius + 0.5 * scene->margin;
+}
+
+static inline pir_scene_news *pir_scene_news_of(const pir_scene *scene, const pir_scene_found *found) {
+    return &scene->worker[found->news_worker].news[found->news];
+}
+
+/* Distances in doubles are within this of the exact ones, with room to spare. */
+static inline double pir_scene_distance_error(const pir_scene_body *p, const pir_scene_body *q) {
+    return 1e-11 * (p->reach + q->reach + p->radius + q->radius + pir_vec_length(p->pose.translation) +
+                    pir_vec_length(q->pose.translation));
 }
 
 /* Gives the pieces of a body that was put in their boxes, those of scene->lists.box from `box` on, and leaves. */

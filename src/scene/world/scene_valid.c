@@ -105,6 +105,16 @@ static bool triangles_are_valid(const pir_scene *scene, uint32_t body, uint32_t 
     return true;
 }
 
+/* Only contacts are kept. */
+static bool records_are_valid(const pir_scene *scene) {
+    bool valid = true;
+    for (uint32_t i = 0; i < scene->pairs.capacity && valid; i++) {
+        const pir_scene_pair *pair = &scene->pairs.at[i];
+        valid = pair->touching ? scene->reuse > 0 || !(pair->kept || pair->united) : !pair->kept && !pair->united;
+    }
+    return valid;
+}
+
 bool pir_scene_is_valid(const pir_scene *scene) {
     uint32_t pieces = 0, bodies = 0, triangles = 0, ends = 0;
     if (!pir_tree_is_valid(&scene->tree) || scene->tree.leaves != scene->bodies.piece_count)
@@ -125,6 +135,6 @@ bool pir_scene_is_valid(const pir_scene *scene) {
         if (pir_body_has_surface(&scene->bodies.body[b]) && !triangles_are_valid(scene, b, &triangles, &ends))
             return false;
     }
-    return bodies == scene->bodies.body_count && pieces == scene->bodies.piece_count &&
+    return records_are_valid(scene) && bodies == scene->bodies.body_count && pieces == scene->bodies.piece_count &&
            triangles == scene->bodies.triangle_count && ends == 2 * scene->pairs.count;
 }
