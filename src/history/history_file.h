@@ -13,7 +13,7 @@
  *     query      f64 translation[3], radius_p, radius_q, cutoff, margin
  *     pair       u32 p, q; u8 least, most
  *     ask        f64 rotation[4], translation[3] of P, of Q; radius_p, radius_q, cutoff, margin
- *     scene      u8 detail, approach + 2 · unions; f64 margin
+ *     scene      u8 detail, approach + 2 · unions + 4 · whether it reuses manifolds; f64 margin, reuse where it does
  *     add        u8 kind, sensor + 2 · disabled; u32 category, mask; f64 radius, rotation[4], translation[3];
  *                u32 count, pieces
  *     remove     u32 body
@@ -28,6 +28,7 @@
 #include <stdint.h>
 
 #define PIR_HISTORY_VERSION 2u
+#define PIR_HISTORY_LAST    3u /* of scenes that reuse manifolds */
 
 #define PIR_HISTORY_HEADER      32
 #define PIR_HISTORY_SIZE_AT     16

@@ -21,6 +21,7 @@ struct pir_history {
     pir_note object; /* the first note: what the history is of; PIR_NOTE_NONE before it */
     pir_polytope **piece;
     uint32_t pieces, room; /* references held; what `piece` has room for */
+    bool reuses;           /* of a scene that does: only later versions know of it */
 };
 
 /* Bytes of any note but its pieces and moves. */
@@ -237,8 +238,11 @@ pir_status pir_history_scene(pir_history *history, const pir_scene_options *opti
     if (status != PIR_OK)
         return status;
     put(history, (uint64_t)used.detail, 1);
-    put(history, (used.approach ? 1u : 0u) | (used.unions ? 2u : 0u), 1);
+    put(history, (used.approach ? 1u : 0u) | (used.unions ? 2u : 0u) | (used.reuse > 0 ? 4u : 0u), 1);
     put_double(history, used.margin);
+    history->reuses = used.reuse > 0;
+    if (history->reuses)
+        put_double(history, used.reuse);
     return PIR_OK;
 }
 
@@ -326,7 +330,7 @@ pir_status pir_history_write(const pir_history *history, FILE *file, pir_report 
     uint8_t header[PIR_HISTORY_HEADER] = PIR_HISTORY_MAGIC;
     const uint8_t *notes = history->bytes.data + PIR_HISTORY_HEADER;
     size_t size = history->bytes.used - PIR_HISTORY_HEADER;
-    header[8] = PIR_HISTORY_VERSION;
+    header[8] = history->reuses ? PIR_HISTORY_LAST : PIR_HISTORY_VERSION;
     for (int k = 0; k < 8; k++)
         header[PIR_HISTORY_SIZE_AT + k] = (uint8_t)((uint64_t)history->bytes.used >> (8 * k));
     uint64_t checksum = pir_hash_bytes(PIR_HASH_START, header, PIR_HISTORY_CHECKSUM_AT);

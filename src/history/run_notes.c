@@ -231,9 +231,9 @@ static pir_status check_header(const char *name, const uint8_t *data, size_t siz
     if (size < PIR_HISTORY_HEADER || memcmp(data, PIR_HISTORY_MAGIC, 8) != 0)
         return pir_fail(report, PIR_ERR_FORMAT, "%s: not a history, or cut", name);
     uint64_t version = pir_history_take(&reader, 4);
-    if (version != PIR_HISTORY_VERSION)
-        return pir_fail(report, PIR_ERR_VERSION, "%s: version %u, not %u", name, (unsigned)version,
-                        PIR_HISTORY_VERSION);
+    if (version != PIR_HISTORY_VERSION && version != PIR_HISTORY_LAST)
+        return pir_fail(report, PIR_ERR_VERSION, "%s: version %u, not %u or %u", name, (unsigned)version,
+                        PIR_HISTORY_VERSION, PIR_HISTORY_LAST);
     bool zero = pir_history_take(&reader, 4) == 0, whole = pir_history_take(&reader, 8) == size;
     uint64_t checksum = pir_history_take(&reader, 8),
              right = pir_hash_bytes(PIR_HASH_START, data, PIR_HISTORY_CHECKSUM_AT);

@@ -14,6 +14,8 @@ pir_status pir_replay_scene(pir_replay *replay) {
     options.approach = (told & 1) != 0;
     options.unions = (told & 2) != 0;
     options.margin = pir_history_take_double(reader);
+    if (told & 4)
+        options.reuse = pir_history_take_double(reader);
     if (options.detail > PIR_SCENE_MANIFOLDS)
         reader->broken = true;
     return reader->broken ? PIR_ERR_FORMAT : pir_scene_create(&options, &replay->scene);

@@ -166,6 +166,7 @@ static void note_scene(pir_history *history, struct told *right) {
     pir_scene *scene;
     options.margin = 0.125;
     options.unions = true;
+    options.reuse = 0.25;
     assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
     assert_int_equal(pir_history_scene(history, &options), PIR_OK);
     right->hash[right->count++] = PIR_HASH_START;
@@ -251,8 +252,10 @@ static void what_is_cut_or_changed_is_refused(void **state) {
         for (size_t at = 0; at < bytes.size; at++) {
             bytes.data[at] ^= (uint8_t)(1u << at % 8);
             pir_status status = pir_history_replay_bytes(bytes.data, bytes.size, &visitor, NULL);
+            // versions 2 and 3 are read
+            const bool other = at >= 8 && at < 12 && !(at == 8 && (bytes.data[8] | 1) == 3);
             bytes.data[at] ^= (uint8_t)(1u << at % 8);
-            expect(status == (at >= 8 && at < 12 ? PIR_ERR_VERSION : PIR_ERR_FORMAT), "byte %zu changed", at);
+            expect(status == (other ? PIR_ERR_VERSION : PIR_ERR_FORMAT), "byte %zu changed", at);
         }
         assert_int_equal(told.count, 0);
         free(bytes.data);
