@@ -25,7 +25,8 @@ _DETAILS = {"states": lib.PIR_SCENE_STATES, "depths": lib.PIR_SCENE_DEPTHS, "man
 
 class Events(NamedTuple):
     """The findings of an update, an element for each two pieces: `kind` 0 began, 1 persisted, 2 ended. Contacts of
-    event i are the elements ``starts[i]:starts[i + 1]`` of the `contact_` arrays."""
+    event i are the elements ``starts[i]:starts[i + 1]`` of the `contact_` arrays. `error` is how far bodies have moved
+    since what is told was found: 0 but in a scene with `reuse`."""
 
     kind: Bytes
     body_p: Indices
@@ -43,6 +44,7 @@ class Events(NamedTuple):
     contact_id: "npt.NDArray[np.uint64]"
     user_p: "npt.NDArray[np.uint64]"
     user_q: "npt.NDArray[np.uint64]"
+    error: Floats
 
 
 class SceneImpacts(NamedTuple):
@@ -96,12 +98,14 @@ class Scene(Handle):
     True
     """
 
-    def __init__(self, detail: str = "manifolds", margin: float = 0.0, threads: int = 1, unions: bool = False) -> None:
+    def __init__(self, detail: str = "manifolds", margin: float = 0.0, threads: int = 1, unions: bool = False,
+                 reuse: float = 0.0) -> None:
         if detail not in _DETAILS:
             raise InputError(f"detail: it is {detail!r}, not one of {', '.join(_DETAILS)}")
         options = ffi.new("pir_scene_options *", lib.pir_scene_options_default())
         options.detail, options.margin = _DETAILS[detail], number("margin", margin)
         options.threads, options.unions = whole("threads", threads, 1, 64), bool(unions)
+        options.reuse = number("reuse", reuse)
         self._report = ffi.new("pir_report *")
         options.report = self._report
         made = ffi.new("pir_scene **")
@@ -253,7 +257,7 @@ class Scene(Handle):
         plain = {name: found[name].astype(kind) for name, kind in (
             ("kind", np.uint8), ("body_p", np.uint32), ("body_q", np.uint32), ("piece_p", np.uint32),
             ("piece_q", np.uint32), ("sensor", np.bool_), ("state", np.uint8), ("distance", float), ("normal", float),
-            ("user_p", np.uint64), ("user_q", np.uint64))}
+            ("user_p", np.uint64), ("user_q", np.uint64), ("error", float))}
         return Events(**plain, starts=starts, contact_point_p=contacts["point_p"].copy(),
                       contact_point_q=contacts["point_q"].copy(), contact_distance=contacts["distance"].copy(),
                       contact_id=contacts["id"].copy())

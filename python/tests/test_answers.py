@@ -194,6 +194,24 @@ def test_pairs_of_meshes():
     assert len(pirouette.MeshPair(mesh, mesh).within(poses[0], distance=9)) == 144
 
 
+def test_scenes_tell_manifolds_again():
+    cube = pirouette.Polytope(CORNERS)
+    for reuse in (0, 0.01):
+        scene = pirouette.Scene(reuse=reuse)
+        bodies = [scene.add(cube, pose=[0, 0, 0, 1, 0.75 * i, 0, 0]) for i in range(2)]
+        first = scene.update()
+        assert first.error.tolist() == [0]
+        scene.set_poses([bodies[1]], [[0, 0, 0, 1, 0.752, 0, 0]])
+        events = scene.update()
+        assert events.kind.tolist() == [pirouette.PERSISTED] and 0 <= events.error[0] <= reuse
+        assert (events.error[0] > 0.0019) == (reuse > 0)
+        # contacts move with the bodies
+        assert np.allclose(events.contact_distance, first.contact_distance + 0.002)
+        assert (events.contact_id == first.contact_id).all()
+    with pytest.raises(pirouette.InputError):
+        pirouette.Scene(reuse=-1)
+
+
 def test_scenes():
     scene, cube = pirouette.Scene(), pirouette.Polytope(CORNERS)
     bodies = [scene.add(cube, pose=[0, 0, 0, 1, 3 * i, 0, 0]) for i in range(5)]
