@@ -7,13 +7,15 @@
 // this one's, pairs that overlap in the last frame, and how many states are wrong in the frames that are judged
 // (judge.hpp).
 //
-//     bench_scene FOLDER [--engines NAME,...] [--frames FROM:TO] [--every N] [--turns N] [--rain N,...]
-//                 [RECORDING]...
+//     bench_scene FOLDER [--csv NAME] [--engines NAME,...] [--reuse LENGTH] [--frames FROM:TO] [--every N] [--turns N]
+//                 [--rain N,...] [RECORDING]...
 //
-// Engines are ours, ours2 (two threads), box3d, box3d+ (which may reuse manifolds), fcl, bullet; all without the
-// option. Of a recording the frames FROM to TO − 1 are run, all without the option; every 20th is judged, or every
-// N-th, or with 0 none. Rain falls with each number of bodies, 100 to 10,000 without the option, and with 10 that move
-// of the most of them. All lines go to scene.csv, growth of the mean with the number of bodies to scene_growth.csv.
+// Engines are ours, ours2 (two threads), ours+ and ours2+ (which may tell manifolds again of bodies that moved by at
+// most LENGTH, 0.002), box3d, box3d+ (which may reuse manifolds), fcl, bullet; all without the option. Of a recording
+// frames FROM to TO − 1 are run, all without the option; every 20th is judged, or every N-th, or with 0 none. Rain
+// falls with each number of bodies, 100 to 10,000 without the option, and with 10 that move of the most of them; it
+// does not with `none`. All lines go to scene.csv, growth of the mean with the number of bodies to scene_growth.csv;
+// with --csv to NAME.csv and NAME_growth.csv.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,15 +38,17 @@ double clock_of(clockid_t clock) {
 // --- options ---
 
 struct Options {
-    std::vector<std::string> engines = {"ours", "ours2", "box3d", "box3d+", "fcl", "bullet"};
+    std::vector<std::string> engines = {"ours", "ours2", "ours+", "ours2+", "box3d", "box3d+", "fcl", "bullet"};
+    double reuse = 2e-3;
+    std::string csv = "scene";
     std::vector<uint32_t> rain = {100, 300, 1000, 3000, 10000};
     std::vector<std::string> recordings;
     size_t from = 0, to = SIZE_MAX, every = 20, turns = 10;
 };
 
 [[noreturn]] void usage() {
-    std::fprintf(stderr, "usage: bench_scene FOLDER [--engines NAME,...] [--frames FROM:TO] [--every N] "
-                         "[--turns N] [--rain N,...] [RECORDING]...\n");
+    std::fprintf(stderr, "usage: bench_scene FOLDER [--csv NAME] [--engines NAME,...] [--reuse LENGTH] "
+                         "[--frames FROM:TO] [--every N] [--turns N] [--rain N,...] [RECORDING]...\n");
     std::exit(2);
 }
 
@@ -79,6 +83,10 @@ Options options_of(int argc, char **argv) {
         std::vector<std::string> parts = split(argv[i], word == "--frames" ? ':' : ',');
         if (word == "--engines") {
             options.engines = parts;
+        } else if (word == "--csv") {
+            options.csv = argv[i];
+        } else if (word == "--reuse") {
+            options.reuse = std::strtod(argv[i], nullptr);
         } else if (word == "--frames" && parts.size() == 2) {
             options.from = number(parts[0]);
             options.to = number(parts[1]);
@@ -88,7 +96,7 @@ Options options_of(int argc, char **argv) {
             options.turns = std::max<size_t>(number(argv[i]), 1);
         } else if (word == "--rain") {
             options.rain.clear();
-            for (const std::string &part : parts)
+            for (const std::string &part : parts[0] == "none" ? std::vector<std::string>() : parts)
                 options.rain.push_back((uint32_t)std::max<size_t>(number(part), 1));
         } else {
             usage();
@@ -98,11 +106,11 @@ Options options_of(int argc, char **argv) {
 }
 
 // An engine of that name, or NULL where this build lacks it.
-std::unique_ptr<ScenePeer> make(const std::string &name, const Recording &recording) {
-    if (name == "ours")
-        return make_our_scene(recording, 1);
-    if (name == "ours2")
-        return make_our_scene(recording, 2);
+std::unique_ptr<ScenePeer> make(const std::string &name, const Recording &recording, double reuse) {
+    if (name == "ours" || name == "ours+")
+        return make_our_scene(recording, 1, name == "ours+" ? reuse : 0);
+    if (name == "ours2" || name == "ours2+")
+        return make_our_scene(recording, 2, name == "ours2+" ? reuse : 0);
 #ifdef PIR_HAVE_BOX3D
     if (name == "box3d" || name == "box3d+")
         return make_box3d_scene(recording, name == "box3d+");
@@ -195,7 +203,7 @@ using Means = std::map<std::string, double>;
 Means replay(FILE *csv, const Recording &recording, const Options &options) {
     std::vector<Lane> lanes;
     for (const std::string &name : options.engines)
-        if (auto peer = make(name, recording))
+        if (auto peer = make(name, recording, options.reuse))
             lanes.push_back({std::move(peer), {}, {}});
     size_t to = std::min(recording.frames.size(), options.to), judged = 0, from = options.from;
     to = from < to ? from + results_count((uint32_t)(to - from)) : 0;
@@ -254,10 +262,13 @@ int main(int argc, char **argv) {
     if (smoke)
         options.rain = {50, 100};
     struct results results = results_new(argv[1]);
-    FILE *csv = results_open(&results, "scene.csv"), *growth = results_open(&results, "scene_growth.csv");
+    const std::string table = options.csv + ".csv", growths = options.csv + "_growth.csv";
+    FILE *csv = results_open(&results, table.c_str());
+    FILE *growth = options.rain.empty() ? nullptr : results_open(&results, growths.c_str());
     std::fprintf(csv, "scene,engine,frames,mean_ms,median_ms,p99_ms,worst_ms,wall_ms,ours_over,overlapping,judged,"
                       "wrong,peak_mb\n");
-    std::fprintf(growth, "engine,few,many,few_ms,many_ms,power\n");
+    if (growth)
+        std::fprintf(growth, "engine,few,many,few_ms,many_ms,power\n");
     std::printf("# %s; milliseconds a frame\n", results.machine);
     std::printf("%-24s %-26s %9s %9s %9s %9s %9s %6s %8s %6s %6s %8s\n", "scene", "engine", "mean", "median", "p99",
                 "worst", "wall", "ours/", "overlap", "judged", "wrong", "peak MB");
@@ -271,9 +282,10 @@ int main(int argc, char **argv) {
         else if (bodies == options.rain.back())
             print_growth(growth, options.rain.front(), bodies, least, means);
     }
-    if (!smoke && options.rain.back() > 1000)
+    if (!smoke && growth && options.rain.back() > 1000)
         rain(csv, options.rain.back(), 10, options);
-    results_close(csv, "scene.csv");
-    results_close(growth, "scene_growth.csv");
+    results_close(csv, table.c_str());
+    if (growth)
+        results_close(growth, growths.c_str());
     return 0;
 }

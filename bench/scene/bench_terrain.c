@@ -3,7 +3,8 @@
  * Hulls on a height field of 64 × 64 cells: 300 of them, asleep and awake, rays from above, and casts of a capsule; a
  * peer, where there is one, is asked the same in turn. Each line: who, a measure, its median, the 99th percentile, the
  * unit. Times are those of the thread; a query's is the mean of a batch, since the clock takes as long as a ray. How
- * long the peer's collision takes is what it tells of itself.
+ * long the peer's collision takes is what it tells of itself. scene_terrain_reuse.csv has updates with manifolds, told
+ * again and not.
  *
  *     bench_terrain FOLDER
  */
@@ -22,6 +23,8 @@
 #define BODIES 300
 #define FORMS  8
 #define POINTS 20
+
+#define REUSE 5e-3 /* bodies awake move by no more than that about their places */
 
 #define HALF      0.5 /* of the capsule, without its radius */
 #define RADIUS    0.3
@@ -212,10 +215,11 @@ static void time_queries(struct terrain *terrain, FILE *file, bool is_ray) {
            is_ray ? "rays" : "casts");
 }
 
-/* A scene with the ground, of a detail. */
-static void open_terrain(struct terrain *terrain, pir_scene_detail detail) {
+/* A scene with the ground, of a detail; manifolds may be as old as bodies move by `reuse`. */
+static void open_terrain(struct terrain *terrain, pir_scene_detail detail, double reuse) {
     pir_scene_options options = pir_scene_options_default();
     options.detail = detail;
+    options.reuse = reuse;
     options.margin = detail == PIR_SCENE_STATES ? 0 : 0.005;
     *terrain = (struct terrain){.state = 1};
     trial_need(pir_scene_create(&options, &terrain->scene), "a scene");
@@ -235,16 +239,28 @@ static void close_terrain(struct terrain *terrain) {
     pir_polytope_release(terrain->spine);
 }
 
-static void time_bodies(FILE *file, pir_scene_detail detail) {
+/* What is timed of a scene. */
+struct named_scene {
+    pir_scene_detail detail;
+    double reuse;
+    const char *asleep, *awake, *memory;
+};
+
+static const struct named_scene distances = {PIR_SCENE_DEPTHS, 0, "update asleep with distances",
+                                             "update awake with distances", "memory of the scene with distances"};
+static const struct named_scene manifolds = {PIR_SCENE_MANIFOLDS, 0, "update asleep with manifolds",
+                                             "update awake with manifolds", "memory of the scene with manifolds"};
+static const struct named_scene reused = {PIR_SCENE_MANIFOLDS, REUSE, "update asleep reusing manifolds",
+                                          "update awake reusing manifolds", "memory of the scene reusing manifolds"};
+
+static void time_bodies(FILE *file, const struct named_scene *of) {
     static struct terrain terrain;
-    const bool manifolds = detail == PIR_SCENE_MANIFOLDS;
-    open_terrain(&terrain, detail);
+    open_terrain(&terrain, of->detail, of->reuse);
     put_down(&terrain);
-    time_updates(&terrain, file, manifolds ? "update asleep with manifolds" : "update asleep with distances", 0);
-    time_updates(&terrain, file, manifolds ? "update awake with manifolds" : "update awake with distances", BODIES);
+    time_updates(&terrain, file, of->asleep, 0);
+    time_updates(&terrain, file, of->awake, BODIES);
     times[0][0] = (double)pir_scene_get_statistics(terrain.scene).bytes;
-    report(file, 0, manifolds ? "memory of the scene with manifolds" : "memory of the scene with distances", 1, 1e3,
-           "kB");
+    report(file, 0, of->memory, 1, 1e3, "kB");
     close_terrain(&terrain);
 }
 
@@ -258,7 +274,7 @@ int main(int argc, char **argv) {
     const struct results results = results_new(argv[1]);
     FILE *file = results_open(&results, "scene_terrain.csv");
     fprintf(file, "who,measure,median,p99,unit\n");
-    open_terrain(&terrain, PIR_SCENE_DEPTHS);
+    open_terrain(&terrain, PIR_SCENE_DEPTHS, 0);
     pir_height_field_describe(terrain.field, &info);
     times[0][0] = (double)info.bytes;
     report(file, 0, "memory of the field", 1, 1e3, "kB");
@@ -266,8 +282,13 @@ int main(int argc, char **argv) {
     time_queries(&terrain, file, true);
     time_queries(&terrain, file, false);
     close_terrain(&terrain);
-    time_bodies(file, PIR_SCENE_DEPTHS);
-    time_bodies(file, PIR_SCENE_MANIFOLDS);
+    time_bodies(file, &distances);
+    time_bodies(file, &manifolds);
     results_close(file, "scene_terrain.csv");
+    file = results_open(&results, "scene_terrain_reuse.csv");
+    fprintf(file, "who,measure,median,p99,unit\n");
+    time_bodies(file, &manifolds);
+    time_bodies(file, &reused);
+    results_close(file, "scene_terrain_reuse.csv");
     return 0;
 }

@@ -17,10 +17,14 @@ void check(pir_status status) {
 
 class Ours : public ScenePeer {
   public:
-    Ours(const Recording &recording, uint32_t threads)
-        : name_(threads > 1 ? "ours, " + std::to_string(threads) + " threads" : "ours") {
+    Ours(const Recording &recording, uint32_t threads, double reuse) : name_("ours") {
+        if (threads > 1)
+            name_ += ", " + std::to_string(threads) + " threads";
+        if (reuse > 0)
+            name_ += " reusing manifolds";
         pir_scene_options options = pir_scene_options_default();
         options.threads = threads;
+        options.reuse = reuse;
         check(pir_scene_create(&options, &scene_));
         for (const RecordedBody &body : recording.statics)
             add(body.polytope, body.pose, PIR_BODY_STATIC);
@@ -82,6 +86,6 @@ class Ours : public ScenePeer {
 
 } // namespace
 
-std::unique_ptr<ScenePeer> make_our_scene(const Recording &recording, uint32_t threads) {
-    return std::make_unique<Ours>(recording, threads);
+std::unique_ptr<ScenePeer> make_our_scene(const Recording &recording, uint32_t threads, double reuse) {
+    return std::make_unique<Ours>(recording, threads, reuse);
 }

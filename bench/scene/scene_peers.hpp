@@ -25,7 +25,7 @@ class ScenePeer {
 };
 
 // NULL where the engine cannot hold the recording's bodies.
-std::unique_ptr<ScenePeer> make_our_scene(const Recording &recording, uint32_t threads);
+std::unique_ptr<ScenePeer> make_our_scene(const Recording &recording, uint32_t threads, double reuse);
 std::unique_ptr<ScenePeer> make_bullet_scene(const Recording &recording);
 std::unique_ptr<ScenePeer> make_fcl_scene(const Recording &recording);
 std::unique_ptr<ScenePeer> make_box3d_scene(const Recording &recording, bool reuse);

@@ -49,10 +49,10 @@ std::vector<Measured> measure_scene(std::string *ret_name) {
     std::unique_ptr<Recording> rain = make_rain(BODIES, BODIES, FRAMES);
     std::vector<std::unique_ptr<Recording>> fewer;
     std::vector<Lane> lanes;
-    join(&lanes, make_our_scene(*rain, 1), "scene", "exact");
+    join(&lanes, make_our_scene(*rain, 1, 0), "scene", "exact");
     for (uint32_t vertices : {24u, 16u, 12u, 8u, 6u}) {
         fewer.push_back(simplified(*rain, vertices));
-        join(&lanes, make_our_scene(*fewer.back(), 1), "simplified", std::to_string(vertices));
+        join(&lanes, make_our_scene(*fewer.back(), 1, 0), "simplified", std::to_string(vertices));
     }
 #ifdef PIR_HAVE_FCL
     join(&lanes, make_fcl_scene(*rain), nullptr, "built in");

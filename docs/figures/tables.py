@@ -176,12 +176,16 @@ def mesh_sliding(r):
     return markdown(["floor", "body", ">box3d: ghosts", ">speed off", ">Pirouette: ghosts", ">speed off"], rows)
 
 
-def scene_terrain(r):
+def terrain_rows(table):
     def plain(text):
         return f"{float(text):,.0f}" if float(text) >= 100 else short(float(text))
     rows = [[row["who"], row["measure"], plain(row["median"]), plain(row["p99"]), row["unit"].replace("us", "µs")]
-            for row in r.scene_terrain.rows]
+            for row in table.rows]
     return markdown(["who", "measure", ">median", ">p99", "unit"], rows)
+
+
+def scene_terrain(r):
+    return terrain_rows(r.scene_terrain)
 
 
 def mesh_octrees(r):
@@ -251,6 +255,19 @@ def pile(r):
     judged = r.scene.one(scene="rec1000.bin", engine="ours")["judged"]
     return markdown(["engine", ">ms a frame, median / mean", ">our mean in parts of its",
                      f">states wrong in {judged} frames"], rows)
+
+
+def pile_reuse(r):
+    rows = [[row["engine"].replace("2 threads", "two threads"),
+             f"{float(row['median_ms']):.2f} / {float(row['mean_ms']):.2f}", f"{float(row['p99_ms']):.1f}",
+             row["wrong"],
+             f"{float(row['peak_mb']):.0f}" if float(row["peak_mb"]) > 0 else ""] for row in r.scene_reuse.rows]
+    return markdown(["engine", ">ms a frame, median / mean", ">99th percentile",
+                     f">states wrong in {r.scene_reuse.rows[0]['judged']} frames", ">MB"], rows)
+
+
+def terrain_reuse(r):
+    return terrain_rows(r.scene_terrain_reuse)
 
 
 # ---- slices.md -------------------------------------------------------------------------------------------------------
@@ -358,5 +375,6 @@ def solid_track(r):
 
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
-    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, slices, slices_read, grid,
+    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, pile_reuse, terrain_reuse, slices,
+    slices_read, grid,
     classify, solids, solid_query, solid_depth, solid_track)}
