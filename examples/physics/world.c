@@ -140,6 +140,7 @@ pir_status world_create(const struct world_options *options, struct world **ret_
     scene.unions = true;
     world->options.margin = scene.margin = options->margin > 0 ? options->margin : MARGIN_LEAST;
     scene.threads = options->threads;
+    scene.reuse = options->reuse;
     pir_status status = pir_scene_create(&scene, &world->scene);
     if (status == PIR_OK)
         status = sweep_init(&world->sweep);

@@ -122,6 +122,7 @@ static void room_init(struct room *room, uint64_t number) {
     if (!gravity)
         room->options.gravity = test_zero;
     room->options.sleep = number % 5 == 0;
+    room->options.reuse = number % 4 == 1 ? 1e-3 : 0;
     for (uint32_t i = 0; i < SHAPES; i++)
         make_shape(room, i, &room->shape[i]);
     assert_int_equal(world_create(&room->options, &room->world), PIR_OK);

@@ -71,6 +71,29 @@ static void a_house_of_fifteen_cards_stands(void **state) {
     stands("cards", 0.008);
 }
 
+/* With contacts that move along with bodies for up to a millimetre. */
+static void contacts_told_again_carry(void **state) {
+    (void)state;
+    static const char *const names[3] = {"stack", "cards", "heap"};
+    for (int i = 0; i < 3; i++) {
+        struct stage stage = read(names[i]);
+        stage.options.sleep = false;
+        stage.options.reuse = 1e-3;
+        struct world *world = world_of(&stage);
+        run_seconds(world, 12);
+        struct depths depths = depths_of(&stage, world);
+        print_message("%s: mean speed %.2g m/s, deepest %.3g m\n", names[i], world_mean_speed(world), depths.depth);
+        expect(world_mean_speed(world) < 2e-3, "%s: mean speed %g", names[i], world_mean_speed(world));
+        expect(depths.relative < 0.02, "%s: overlap of %g of a size", names[i], depths.relative);
+        for (uint32_t b = 0; i < 2 && b < stage.body_count; b++) {
+            pir_vec3 from = stage.body[b].body.pose.translation, to = world_motion(world, b).pose.translation;
+            expect(test_length(test_add(to, from, -1)) < 0.015, "%s: body %u has gone", names[i], b);
+        }
+        world_destroy(world);
+        stage_clear(&stage);
+    }
+}
+
 static void a_pile_comes_to_rest(void **state) {
     (void)state;
     const char *name = getenv("PIR_TEST_PILE");
@@ -205,6 +228,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest standing[] = {
         cmocka_unit_test(a_stack_of_ten_boxes_stands),
         cmocka_unit_test(a_house_of_fifteen_cards_stands),
+        cmocka_unit_test(contacts_told_again_carry),
         cmocka_unit_test(a_pile_comes_to_rest),
     };
     const struct CMUnitTest others[] = {
