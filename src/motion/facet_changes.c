@@ -30,6 +30,13 @@ static bool reserve_faces(pir_face_list *list, const pir_allocator *a, uint32_t 
     return true;
 }
 
+bool pir_face_list_add(pir_face_list *list, const pir_allocator *allocator, pir_witness faces) {
+    if (list->count == list->room && !reserve_faces(list, allocator, 2 * list->room + 16))
+        return false;
+    list->at[list->count++] = faces;
+    return true;
+}
+
 static bool reserve_pairs(pir_changes *changes, const pir_allocator *a, uint32_t count) {
     if (count <= changes->pair_room)
         return true;
@@ -109,8 +116,7 @@ static inline void add_faces(pir_face_list *list, pir_witness faces) {
     list->at[list->count++] = faces;
 }
 
-/* The facet of the sum that a mover is. */
-static pir_witness mover_faces(const pir_movers *movers, uint32_t m) {
+pir_witness pir_changes_faces(const pir_movers *movers, uint32_t m) {
     const pir_mover *mover = &movers->mover[m];
     const pir_polytope *other = pir_mover_ground(movers, m)->polytope;
     const pir_feature own = {PIR_FEATURE_FACET, pir_mover_facet(movers, m)};
@@ -187,7 +193,7 @@ static bool cross_alone(pir_changes *changes, pir_movers *movers, pir_queue *que
 static pir_stop stop_of(pir_movers *movers, uint32_t m) {
     const pir_mover *mover = &movers->mover[m];
     const pir_polytope *other = pir_mover_ground(movers, m)->polytope;
-    pir_stop stop = {m, mover->next.half, PIR_NONE, mover_faces(movers, m)};
+    pir_stop stop = {m, mover->next.half, PIR_NONE, pir_changes_faces(movers, m)};
     bool alone = mover->next.alone && mover->on == PIR_NONE;
     // another side may have a double root, or one that lasts
     for (uint32_t h = other->ring_start[mover->cell]; alone && h < other->ring_start[mover->cell + 1]; h++)
@@ -271,7 +277,7 @@ static void move_on(pir_changes *changes, pir_movers *movers, const pir_stop *st
     else if (pir_movers_sign(movers, m, stop->half, PIR_AFTER) > 0)
         mover->cell = pir_mover_ground(movers, m)->polytope->target[stop->half];
     pir_movers_follow(movers, m);
-    const pir_witness after = mover_faces(movers, m);
+    const pir_witness after = pir_changes_faces(movers, m);
     if (is_same(&stop->before, &after))
         return;
     add_faces(&changes->lost, stop->before);

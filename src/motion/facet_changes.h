@@ -22,6 +22,9 @@ typedef struct pir_face_list {
     uint32_t count, room;
 } pir_face_list;
 
+/* Adds a facet behind the others; false when out of memory. */
+bool pir_face_list_add(pir_face_list *list, const pir_allocator *allocator, pir_witness faces);
+
 /* A mover at its instant: on the arc of `half`, or on the point of the facet `corner`, the other PIR_NONE. */
 typedef struct pir_stop {
     uint32_t mover, half, corner;
@@ -45,6 +48,9 @@ void pir_changes_finish(pir_changes *changes, const pir_movers *movers);
  * movers back with the instant after it. The queue must not be empty. PIR_ERR_MEMORY; nothing changes then.
  */
 pir_status pir_changes_make(pir_changes *changes, pir_movers *movers, pir_queue *queue);
+
+/* The facet of the sum that a mover is. */
+pir_witness pir_changes_faces(const pir_movers *movers, uint32_t m);
 
 /* Whether two arcs cross within both, just before or after now. */
 bool pir_changes_cross(pir_movers *movers, uint32_t edge_p, uint32_t edge_q, pir_when when);

@@ -57,14 +57,7 @@ void pir_events_angle(pir_events *events, double ret_degrees[2]) {
     const pir_turning *turning = &events->movers.turning;
     double kappa[2];
     pir_events_kappa(events, kappa);
-    for (int k = 0; k < 2; k++) {
-        // the axis's length is m·2^e, off by less than 2^-51, and so the angle; libm adds a few last bits
-        const double scaled = ldexp(kappa[1 - k], -(turning->length.e + turning->exponent));
-        const double degrees = 2 * atan2(turning->length.m, scaled) * (180 / 3.14159265358979323846);
-        ret_degrees[k] = degrees * (k == 0 ? 1 - 0x1p-49 : 1 + 0x1p-49);
-    }
-    ret_degrees[0] = fmax(ret_degrees[0], 0);
-    ret_degrees[1] = fmin(ret_degrees[1], 360);
+    pir_turning_degrees(turning->length, turning->exponent, kappa, ret_degrees);
 }
 
 /* Of the doubles from low to high, both finite, the one with the fewest bits. */
@@ -105,31 +98,10 @@ pir_status pir_events_between(pir_events *events, double *ret_kappa) {
     return PIR_OK;
 }
 
-/* to = a·2^bits. */
-static void set_mpz(mpz_t to, const pir_int *a, int bits) {
-    mpz_import(to, pir_int_length(a), -1, sizeof(mp_limb_t), 0, 0, a->limb);
-    if (a->size < 0)
-        mpz_neg(to, to);
-    mpz_mul_2exp(to, to, (mp_bitcnt_t)bits);
-}
-
 pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_coefficients) {
     if (!events || !ret_coefficients || events->movers.now.first)
         return PIR_ERR_ARGUMENT;
     pir_movers *movers = &events->movers;
-    const pir_quadratic *root = pir_movers_now(movers);
-    // k = κ·2^-e: c0·2^-2e·κ² + c1·2^-e·κ + c2
-    const int e = movers->turning.exponent;
-    for (int i = 0; i < 3; i++)
-        set_mpz(ret_coefficients[i], &root->c[i], e < 0 ? (2 - i) * -e : i * e);
-    mpz_t divisor;
-    mpz_init(divisor);
-    for (int i = 0; i < 3; i++)
-        mpz_gcd(divisor, divisor, ret_coefficients[i]);
-    if (mpz_sgn(ret_coefficients[0]) < 0 || (mpz_sgn(ret_coefficients[0]) == 0 && mpz_sgn(ret_coefficients[1]) < 0))
-        mpz_neg(divisor, divisor);
-    for (int i = 0; i < 3; i++)
-        mpz_divexact(ret_coefficients[i], ret_coefficients[i], divisor);
-    mpz_clear(divisor);
+    pir_turning_polynomial(pir_movers_now(movers), movers->turning.exponent, ret_coefficients);
     return PIR_OK;
 }

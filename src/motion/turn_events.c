@@ -119,27 +119,44 @@ pir_status pir_events_seek(pir_events *events, double kappa) {
 
 /* --- facets --- */
 
-static uint32_t count_facets(pir_events *events) {
+/* Counts the facets, and adds them to a list where there is one; false when out of memory. */
+static bool look_at_facets(pir_events *events, pir_face_list *list, uint32_t *ret_count) {
     pir_movers *movers = &events->movers;
+    const pir_allocator *a = &movers->allocator;
     uint32_t count = 0;
+    bool fits = true;
     // a facet on one of the other body is that one's too
-    for (uint32_t m = 0; m < movers->count; m++)
-        count += m < movers->body[1].first || movers->mover[m].pinned == PIR_NONE;
+    for (uint32_t m = 0; m < movers->count && fits; m++)
+        if (m < movers->body[1].first || movers->mover[m].pinned == PIR_NONE) {
+            count++;
+            fits = !list || pir_face_list_add(list, a, pir_changes_faces(movers, m));
+        }
     const pir_polytope *p = movers->operand[0], *q = movers->operand[1];
-    for (uint32_t k = 0; k < q->edge_count; k++) {
+    for (uint32_t k = 0; k < q->edge_count && fits; k++) {
         // an arc of P crosses that of k only where it leads from one side to the other
         for (uint32_t f = 0; f < p->facet_count; f++)
             movers->row[f] = (int8_t)pir_movers_sign(movers, f, q->edge_half[k], PIR_AFTER);
-        for (uint32_t i = 0; i < p->edge_count; i++)
-            if (movers->row[p->arc_ends[i].from] * movers->row[p->arc_ends[i].to] < 0)
-                count += pir_changes_cross(movers, i, k, PIR_AFTER);
+        for (uint32_t i = 0; i < p->edge_count && fits; i++) {
+            if (movers->row[p->arc_ends[i].from] * movers->row[p->arc_ends[i].to] >= 0 ||
+                !pir_changes_cross(movers, i, k, PIR_AFTER))
+                continue;
+            const pir_witness faces = {{PIR_FEATURE_EDGE, i}, {PIR_FEATURE_EDGE, k}};
+            count++;
+            fits = !list || pir_face_list_add(list, a, faces);
+        }
     }
-    return count;
+    *ret_count = count;
+    return fits;
+}
+
+bool pir_events_list(pir_events *events, pir_face_list *list) {
+    uint32_t count;
+    return look_at_facets(events, list, &count);
 }
 
 uint32_t pir_events_facet_count(pir_events *events) {
     if (!events->counted)
-        events->facets = count_facets(events);
+        look_at_facets(events, NULL, &events->facets);
     events->counted = true;
     return events->facets;
 }

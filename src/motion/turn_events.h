@@ -15,4 +15,7 @@ struct pir_events {
     uint32_t facets;
 };
 
+/* Adds the facets of the true sum just after the place to a list, in no order; false when out of memory. */
+bool pir_events_list(pir_events *events, pir_face_list *list);
+
 #endif

@@ -169,3 +169,38 @@ pir_form pir_turning_form_q(const pir_turning *turning, pir_vec3 y) {
     // (u × x')·y = −(u × y)·x'
     return form_of(y, turning->unit, -1);
 }
+
+void pir_turning_degrees(pir_scaled length, int exponent, const double kappa[2], double ret_degrees[2]) {
+    for (int k = 0; k < 2; k++) {
+        // the axis's length is m·2^e, off by less than 2^-51, and so the angle; libm adds a few last bits
+        const double scaled = ldexp(kappa[1 - k], -(length.e + exponent));
+        const double degrees = 2 * atan2(length.m, scaled) * (180 / 3.14159265358979323846);
+        ret_degrees[k] = degrees * (k == 0 ? 1 - 0x1p-49 : 1 + 0x1p-49);
+    }
+    ret_degrees[0] = fmax(ret_degrees[0], 0);
+    ret_degrees[1] = fmin(ret_degrees[1], 360);
+}
+
+/* to = a·2^bits. */
+static void set_mpz(mpz_t to, const pir_int *a, int bits) {
+    mpz_import(to, pir_int_length(a), -1, sizeof(mp_limb_t), 0, 0, a->limb);
+    if (a->size < 0)
+        mpz_neg(to, to);
+    mpz_mul_2exp(to, to, (mp_bitcnt_t)bits);
+}
+
+void pir_turning_polynomial(const pir_quadratic *root, int exponent, mpz_t *ret_coefficients) {
+    // k = κ·2^-e: c0·2^-2e·κ² + c1·2^-e·κ + c2
+    const int e = exponent;
+    for (int i = 0; i < 3; i++)
+        set_mpz(ret_coefficients[i], &root->c[i], e < 0 ? (2 - i) * -e : i * e);
+    mpz_t divisor;
+    mpz_init(divisor);
+    for (int i = 0; i < 3; i++)
+        mpz_gcd(divisor, divisor, ret_coefficients[i]);
+    if (mpz_sgn(ret_coefficients[0]) < 0 || (mpz_sgn(ret_coefficients[0]) == 0 && mpz_sgn(ret_coefficients[1]) < 0))
+        mpz_neg(divisor, divisor);
+    for (int i = 0; i < 3; i++)
+        mpz_divexact(ret_coefficients[i], ret_coefficients[i], divisor);
+    mpz_clear(divisor);
+}

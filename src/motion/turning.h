@@ -62,4 +62,15 @@ void pir_turning_quadratic(const pir_turning *turning, const pir_int3 *x, const 
 pir_form pir_turning_form_p(const pir_turning *turning, pir_vec3 x);
 pir_form pir_turning_form_q(const pir_turning *turning, pir_vec3 y);
 
+/*
+ * The angle in degrees, rounded outwards, for κ between two doubles. `length` is the axis's, in units of 2^exponent.
+ */
+void pir_turning_degrees(pir_scaled length, int exponent, const double kappa[2], double ret_degrees[2]);
+
+/*
+ * The quadratic in κ of one in k = κ·2^-exponent, which is not zero: without a common divisor, the first coefficient
+ * that is not zero positive.
+ */
+void pir_turning_polynomial(const pir_quadratic *root, int exponent, mpz_t *ret_coefficients);
+
 #endif
