@@ -13,6 +13,7 @@
 #include <pirouette/base.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
+#include <pirouette/critical.h>
 #include <pirouette/events.h>
 #include <pirouette/impact.h>
 #include <pirouette/mesh.h>
@@ -177,6 +178,21 @@ PIR_API pir_status pir_cgm_vertex_plane_exact(const pir_cgm *cgm, uint32_t verte
  * Errors: PIR_ERR_ARGUMENT.
  */
 PIR_API pir_status pir_events_polynomial_exact(pir_events *events, mpz_t *ret_coefficients);
+
+/**
+ * The quadratic that an event of a map, or a contact of a place, is a root of, as of pir_events_polynomial_exact.
+ *
+ * event, contact    below the count.
+ * ret_coefficients  three initialised integers.
+ *
+ * Cost: O(1), in exact arithmetic.
+ *
+ * Errors: PIR_ERR_ARGUMENT.
+ */
+PIR_API pir_status pir_critical_map_polynomial_exact(const pir_critical_map *map, uint32_t event,
+                                                     mpz_t *ret_coefficients);
+PIR_API pir_status pir_critical_states_polynomial_exact(const pir_critical_states *states, uint32_t contact,
+                                                        mpz_t *ret_coefficients);
 
 /**
  * As pir_pair_impact (impact.h); on a hit after the start also the quadratic that the κ of the contact is a root of,

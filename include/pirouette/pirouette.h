@@ -11,6 +11,7 @@
 #include <pirouette/certificate.h>
 #include <pirouette/cgm.h>
 #include <pirouette/clash.h>
+#include <pirouette/critical.h>
 #include <pirouette/events.h>
 #include <pirouette/gradient.h>
 #include <pirouette/history.h>
