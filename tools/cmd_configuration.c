@@ -10,6 +10,7 @@
 
 #include "args.h"
 #include "cmd.h"
+#include "critical.h"
 #include "file.h"
 #include "input.h"
 #include "interrupt.h"
@@ -289,6 +290,8 @@ static int run_batch(const struct args *args, pir_cspace *cspace, int64_t start)
 
 SUBCOMMAND(configuration) {
     struct request request;
+    if (critical_is_file(args->positional[0]))
+        return critical_configuration(args);
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     pir_cspace *cspace;
@@ -296,6 +299,10 @@ SUBCOMMAND(configuration) {
     pir_status status = pir_cspace_open(args->positional[0], NULL, &report, &cspace);
     if (status != PIR_OK)
         return complain_status(args->positional[0], status, &report);
+    if (args_has(args, "--kappa") || args_has(args, "--around")) {
+        pir_cspace_destroy(cspace);
+        return complain("configuration: --kappa and --around are for files of slice --critical");
+    }
     int64_t start = clock_now();
     int result = args_has(args, "--batch") ? run_batch(args, cspace, start)
                  : request.moves           ? run_motion(args, cspace, &request, start)

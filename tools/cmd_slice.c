@@ -8,6 +8,7 @@
 
 #include "args.h"
 #include "cmd.h"
+#include "critical.h"
 #include "file.h"
 #include "interrupt.h"
 #include "json.h"
@@ -281,6 +282,8 @@ static int make_slices(struct slicing *run) {
 SUBCOMMAND(slice) {
     struct slicing run = {.args = args};
     int result = EXIT_BAD_INPUT;
+    if (args_has(args, "--critical") || args_has(args, "--quat"))
+        return critical_slice(args);
     if (!ranks_begin(&run.ranks))
         return EXIT_BAD_INPUT;
     bool good = read_request(args, &run);

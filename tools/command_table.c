@@ -253,7 +253,10 @@ static const struct option slice_options[] = {
     {"--level", "L",
      "... by the grid of 72 times 8 to the power of L of them, 60 degrees by 2 to the power of L apart"},
     {"--rotations", "FILE", "the rotations of FILE, .csv or .npy: quaternions x,y,z,w, of any length but 0"},
-    {"-o", "FILE", "the file that is made: .h5 or .hdf5"},
+    {"--critical", NULL,
+     "slices without gaps: with --axis alone, the events of a full turn and what is between them, into a .turn"},
+    {"--quat", "x,y,z,w", "of --critical: where the turn starts (0,0,0,1), of any length but 0"},
+    {"-o", "FILE", "the file that is made: .h5 or .hdf5, of --critical .turn"},
     {"--threads", "N", "make slices in so many threads (1)"},
     {"--slices-per-unit", "N",
      "deal slices to threads and ranks so many at a time, at most 1048576 (256, or 64 where there are few in all)"},
@@ -272,6 +275,8 @@ static const struct option configuration_options[] = {
     {"--axis", "x,y,z", "turned about this axis, of any length but 0, ..."},
     {"--angle", "DEGREES", "... by this angle"},
     {"--translate", "x,y,z", "moved by this, after turning it"},
+    {"--kappa", "K", "of a .turn: turned by the angle t from its start, of which this is |axis| cot(t/2)"},
+    {"--around", NULL, "of a .turn: the states at this translation all around, and the angles between them"},
     {"--to", "x,y,z", "ask for the motion that ends at this translation"},
     {"--to-quat", "x,y,z,w", "ask for the motion that ends at this rotation"},
     {"--batch", "FILE",
@@ -410,25 +415,29 @@ const struct command command_table[] = {
             "model is a convex piece. Every pair of pieces is followed from rotation to rotation, and the file "
             "holds what changes. Until all slices are made they stand in FILE.part0: a run that was ended in any "
             "way goes on with --resume. Started by mpirun, where "
-            "the build has MPI, processes share the work, each with a part of its own.",
+            "the build has MPI, processes share the work, each with a part of its own. With --critical the file holds "
+            "a full turn about one axis whole: every angle at which a difference changes, exactly, and its facets "
+            "between them.",
         .options = slice_options,
         .examples = {{"slice shape:cube shape:gs4 --axis 0,0,1 --steps 500 -o slices.h5", "the cube about one axis"},
+                     {"slice shape:cube shape:gs4 --axis 0,0,1 --critical -o cube.turn", "every angle of the turn"},
                      {"slice shape:cube shape:gs2 --grid hopf --level 2 --dry-run",
                       "what all rotations, 15 degrees apart, would take"}},
     },
     {
         .name = "configuration",
         .run = SLICES(cmd_configuration),
-        .positional = {"FILE.h5"},
+        .positional = {"FILE.h5|FILE.turn"},
         .required = 1,
         .summary = "whether a pose of the robot is free or blocked, by the slices of a file",
         .details = "Free: no piece of the robot overlaps or touches an obstacle. Blocked: some piece does. Unknown: "
                    "the slices prove neither. At the rotation of a slice the state, outside, boundary or inside, is "
-                   "exact.",
+                   "exact. A file of slice --critical decides every pose, and has the state of each.",
         .options = configuration_options,
         .examples = {{"configuration slices.h5 --quat 0,0,1,1 --translate 3,0,0", "one pose"},
                      {"configuration slices.h5 --translate 3,0,0 --to -3,0,0", "a motion, where it is not free"},
-                     {"configuration slices.h5 --batch poses.csv -o answers.csv", "many poses"}},
+                     {"configuration slices.h5 --batch poses.csv -o answers.csv", "many poses"},
+                     {"configuration cube.turn --translate 1,0,0 --around", "at which angles a place is free"}},
     },
     {
         .name = "view",

@@ -323,6 +323,19 @@ def classify(r):
                      ">wrong"], rows)
 
 
+def critical(r):
+    rows = []
+    for row in r.critical.rows:
+        bodies = row["p"] if row["p"] == row["q"] else f"{row['p']}, {row['q']}"
+        rows.append([bodies if row["p"] != row["q"] else f"two of {bodies}", row["axis"], count(row["events"]),
+                     *(two(float(row[key])) for key in ("make_ms", "grid_ms")),
+                     count(row["bytes"]), count(row["grid_bytes"]),
+                     *(two(float(row[key])) for key in ("state_us", "beside_us", "pair_us", "around_us")),
+                     row["unknown"], row["wrong"]])
+    return markdown(["bodies", "axis", ">events", ">made, ms", ">grid, ms", ">bytes", ">grid, bytes", ">a state, µs",
+                     ">beside events, µs", ">a pair, µs", ">all around, µs", ">unknown", ">wrong"], rows)
+
+
 # ---- solids.md -------------------------------------------------------------------------------------------------------
 
 
@@ -376,5 +389,4 @@ def solid_track(r):
 TABLES = {function.__name__: function for function in (
     pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
     scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, pile_reuse, terrain_reuse, slices,
-    slices_read, grid,
-    classify, solids, solid_query, solid_depth, solid_track)}
+    slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}

@@ -120,6 +120,8 @@ class Configuration(CommandTest):
         self.bad("configuration", self.slices, "--translate=nan,0,0", says=["--translate", "nan"])
         self.bad("configuration", self.slices, place, "-o", self.path / "a.csv", says="-o is for --batch")
         self.bad("configuration", self.slices, "--batch", "x.csv", says="-o")
+        self.bad("configuration", self.slices, place, "--around", says=["--around", "--critical"])
+        self.bad("configuration", self.slices, place, "--kappa=1", says="--critical")
         self.bad("configuration", self.slices, place, "--batch", "x.csv", "-o", "-", says=["--batch", "--translate"])
         self.bad("configuration", self.path / "none.h5", place, says=["none.h5", "No such file"])
         self.bad("configuration", self.tetrahedron, place, says=["tetrahedron.off", "no HDF5"])

@@ -133,6 +133,8 @@ class Help(unittest.TestCase):
         if " slices.h5" in line and "-o slices.h5" not in line:
             run("slice", "shape:cube", "shape:octahedron", "--axis", "1,2,3", "--steps", "20", "-o",
                 folder / "slices.h5")
+        if " cube.turn" in line and "-o cube.turn" not in line:
+            run("slice", "shape:cube", "shape:octahedron", "--axis", "1,2,3", "--critical", "-o", folder / "cube.turn")
         if "poses.csv" in line:
             (folder / "poses.csv").write_text("0,0,0,1,3,0,0\n1,0,0,1,0,0,0\n")
         for history in re.findall(r"replay (\S+)", line):

@@ -11,12 +11,17 @@ int main(void) {
 
     /* snippet 1 */
 
+    /* snippet 2 */
+
+    if (contact.degrees[0] < 346 || state != PIR_OUTSIDE)
+        return 1;
+
     pir_pair *pair = NULL;
     pir_workspace *workspace = NULL;
     if (pir_pair_create(p, q, NULL, &pair) != PIR_OK || pir_workspace_create(NULL, &workspace) != PIR_OK)
         return 1;
 
-    /* snippet 2 */
+    /* snippet 3 */
 
     pir_scene *scene = NULL;
     pir_body_options body = pir_body_options_default();
@@ -30,13 +35,13 @@ int main(void) {
     if (pir_scene_add(scene, &body, &leaf) != PIR_OK)
         return 1;
 
-    /* snippet 3 */
+    /* snippet 4 */
 
     pir_scene_destroy(scene);
     if (stop.impact.outcome != PIR_CAST_MISS)
         return 1;
 
-    /* snippet 4 */
+    /* snippet 5 */
 
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
