@@ -4,7 +4,8 @@
  *
  * A plane is n·x = d with coprime integers, the first of n that is not 0 being positive, so that equal planes have
  * one number. A half-space is twice a plane's number, plus 1 where it is turned: its points have n·x ≤ d, turned
- * n·x ≥ d. A point is x/w with coprime integers, w > 0. Planes and points never change once they are made.
+ * n·x ≥ d. A point is x/w with coprime integers, w > 0. Planes never change once they are made, and
+ * points but get their integers.
  *
  * Doubles: those of a plane are n and d over one power of two, each within 2^-52 of the exact one, relatively; those of
  * a point within 2^-50, and `room` more. Then of n·x − d each product is within 2^-49.4 of its own size, and sums
