@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* pirouette simulate: a scene of rigid bodies, run, as a page that plays it back and as a recording. */
+#include <float.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -61,9 +62,15 @@ static uint32_t frames_of(double seconds) {
 static bool read_stage(const struct args *args, struct run *run) {
     char why[STAGE_WHY];
     uint64_t threads = 1;
+    double reuse = 0;
     run->asked = -1;
-    if (!args_numbers(args, "--seconds", 1, &run->asked) || !args_count(args, "--threads", 1, 64, &threads))
+    if (!args_numbers(args, "--seconds", 1, &run->asked) || !args_count(args, "--threads", 1, 64, &threads) ||
+        !args_numbers(args, "--reuse", 1, &reuse))
         return false;
+    if (!(reuse >= 0 && reuse <= DBL_MAX)) {
+        complain("simulate: --reuse: %g is no length", reuse);
+        return false;
+    }
     if (args_has(args, "--seconds") && !(run->asked >= 0 && run->asked <= SECONDS_MAX)) {
         complain("simulate: --seconds: %g is not between 0 and %d", run->asked, SECONDS_MAX);
         return false;
@@ -73,6 +80,7 @@ static bool read_stage(const struct args *args, struct run *run) {
         return false;
     }
     run->stage.options.threads = (uint32_t)threads;
+    run->stage.options.reuse = reuse;
     if (args_has(args, "--awake"))
         run->stage.options.sleep = false;
     if (run->asked < 0)

@@ -131,6 +131,7 @@ static const struct option simulate_options[] = {
     {"--seconds", "S", "simulate S seconds, to the nearest 1/60 (what the scene says, or 10)"},
     {"--awake", NULL, "let no body sleep"},
     {"--threads", "N", "find contacts with N threads; the run is the same (1)"},
+    {"--reuse", "D", "tell contacts again while bodies move by less than this length against each other (0)"},
     COMMON_OPTIONS,
 };
 

@@ -189,6 +189,15 @@ class Simulate(Simulated):
             self.assertEqual(told["seconds"] > 0, True)
         self.assertEqual(len(states), 1)
 
+    def test_contacts_told_again(self):
+        """Runs with --reuse are the same by any number of threads, but not those without."""
+        told = [self.data("simulate", SCENES / "stack.json", "--seconds", 2, "--awake", *more)["state"]
+                for more in ([], ["--reuse", 0.001], ["--reuse", 0.001, "--threads", 3])]
+        self.assertNotEqual(told[0], told[1])
+        self.assertEqual(told[1], told[2])
+        for length in (-1, "nan", "inf", "x"):
+            self.bad("simulate", SCENES / "stack.json", "--reuse", length, says=("--reuse",))
+
     def test_every_shipped_scene_runs(self):
         names = sorted(path.stem for path in SCENES.glob("*.json"))
         self.assertEqual(names, ["bullets", "cards", "dominoes", "gears", "heap", "pile", "slot", "stack", "table",
