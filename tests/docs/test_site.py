@@ -18,6 +18,7 @@ import urllib.parse
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(sys.argv[1]).resolve()
+COMMAND = [pathlib.Path(path).resolve() for path in sys.argv[2:]]
 sys.path[:0] = [str(ROOT / "docs" / "site")]
 import check_reference  # noqa: E402
 import chromium  # noqa: E402
@@ -190,7 +191,7 @@ def main():
         return 77
     with tempfile.TemporaryDirectory() as folder:
         site = pathlib.Path(folder).resolve() / "site"
-        made = subprocess.run([sys.executable, "-B", ROOT / "docs/site/make_site.py", site, *sys.argv[2:]],
+        made = subprocess.run([sys.executable, "-B", ROOT / "docs/site/make_site.py", site, *COMMAND],
                               capture_output=True, text=True)
         assert made.returncode == 0, made.stdout + made.stderr
         found, count = broken_links(site)
