@@ -93,6 +93,7 @@ PIR_API pir_status pir_critical_map_event(const pir_critical_map *map, uint32_t 
  *
  * interval   from 0 to the count of events.
  * ret_faces  NULL, or room for as many facets as the count that a call with NULL tells.
+ * ret_count  how many there are.
  *
  * Cost: O(f log f) for f facets.
  *
@@ -151,6 +152,7 @@ PIR_API pir_status pir_critical_map_state(const pir_critical_map *map, double ka
  *
  * rotation, ret_is_turn  as of pir_critical_map_locate_rotation.
  * translation            of P.
+ * ret_state              the state, where the rotation is one of the turn.
  *
  * Cost: as of pir_critical_map_state, and exact arithmetic.
  *

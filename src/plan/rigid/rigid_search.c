@@ -179,12 +179,15 @@ static uint32_t divide(pir_rigid_job *job) {
     return count;
 }
 
-/* Keeps of the list those boxes whose middles are of use: where inner pieces block nothing nobody knows anything. */
+/*
+ * Keeps of the list those boxes whose middles are of use, and are not known yet: where inner pieces block nothing
+ * nobody knows anything.
+ */
 static uint32_t keep_useful(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (leaf->box.level == 1 || leaf->inner.nodes > 1)
+        if (!leaf->is_full && (leaf->box.level == 1 || leaf->inner.nodes > 1))
             kept[count++] = job->list[i];
     }
     return count;
