@@ -19,14 +19,13 @@ largest component is in one, or its negative is. A box is the hull of its corner
 >= 0. So a point x with B(q_i, q_k)n.x <= (q_i.q_k) d for all pairs of corners is in the half-space n.x <= d at every
 rotation.
 """
-import json
 import sys
 from fractions import Fraction
 from itertools import combinations_with_replacement, product
 from math import gcd, lcm
 
-from plan import Cell, Piece, Plan, Refused, cross, dot, need, sub, vector
-from turns import Arc
+import turns
+from plan import Cell, Piece, Plan, cross, dot, need, sub, vector
 
 ONE = 1 << 20
 
@@ -55,10 +54,10 @@ def reduced(n):
 def form(p, q, v):
     """B(p, q)v = (p v q* + q v p*) / 2 for quaternions x, y, z, w."""
     a, b, s, t = p[:3], q[:3], p[3], q[3]
-    along, turns = dot(b, v), dot(a, v)
+    of_b, of_a = dot(b, v), dot(a, v)
     mixed = [s * y + t * x for x, y in zip(a, b)]
     over, level = cross(mixed, v), s * t - dot(a, b)
-    return tuple(level * v[k] + over[k] + along * a[k] + turns * b[k] for k in range(3))
+    return tuple(level * v[k] + over[k] + of_b * a[k] + of_a * b[k] for k in range(3))
 
 
 def are_apart(a, b):
@@ -68,7 +67,7 @@ def are_apart(a, b):
                 for n, d in own.planes))
 
 
-class Box(Arc):
+class Box(turns.Arc):
     """One box of rotations: its inner pieces, whose sums are Plan's, and the leaves of its tree."""
 
     def __init__(self, whole, told):  # pylint: disable=super-init-not-called
@@ -163,13 +162,7 @@ class Motions(Plan):
 
 
 def main(path):
-    try:
-        with open(path, encoding="utf-8") as file:
-            print("proven:", Motions(json.load(file)).check())
-        return 0
-    except (ValueError, LookupError, TypeError, AttributeError, ZeroDivisionError, OSError) as error:
-        print("refused:", error if isinstance(error, (Refused, OSError)) else f"not a proof: {error!r}")
-        return 1
+    return turns.main(path, Motions)
 
 
 if __name__ == "__main__":

@@ -120,10 +120,10 @@ class Turns:
         return f"no path: {len(self.arcs)} arcs of a turn keep start and end apart"
 
 
-def main(path):
+def main(path, proof=Turns):
     try:
         with open(path, encoding="utf-8") as file:
-            print("proven:", Turns(json.load(file)).check())
+            print("proven:", proof(json.load(file)).check())
         return 0
     except (ValueError, LookupError, TypeError, AttributeError, ZeroDivisionError, OSError) as error:
         print("refused:", error if isinstance(error, (Refused, OSError)) else f"not a proof: {error!r}")
