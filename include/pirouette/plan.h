@@ -238,7 +238,7 @@ typedef struct pir_rigid_plan pir_rigid_plan;
 /** How it is made. */
 typedef struct pir_rigid_plan_options {
     size_t size;        /**< of this struct, which pir_rigid_plan_options_default sets (base.h) */
-    size_t memory;      /**< the most bytes that the division of one box of translations may hold */
+    size_t memory;      /**< the most bytes that one division may hold, and that may be kept of all */
     pir_report *report; /**< NULL, or filled when the call fails */
     FILE *proof;        /**< NULL, or where the proof goes that there is no path, as docs/plan.md has it */
     uint32_t boxes;     /**< the most boxes that all rotations may be divided into, at least 32 */

@@ -195,6 +195,15 @@ static void test_budget(void **state) {
     make_gate(1.02, 1.02, 1.02, 1, 1, &g);
     assert_int_equal(ask(&g, 64, 1, NULL, &info), PIR_TURN_PLAN_UNKNOWN);
     assert_true(info.boxes <= 64);
+    // memory that ends while boxes are divided
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan *plan = NULL;
+    options.memory = 600000;
+    assert_int_equal(pir_rigid_plan_create(&g.input, &options, &plan), PIR_OK);
+    pir_rigid_plan_describe(plan, &info);
+    printf("little memory: %u boxes\n", info.boxes);
+    assert_int_equal(info.answer, PIR_TURN_PLAN_UNKNOWN);
+    pir_rigid_plan_destroy(plan);
     release_gate(&g);
 }
 

@@ -100,6 +100,10 @@ void pir_box_parts_finish(pir_box_parts *parts) {
     *parts = (pir_box_parts){0};
 }
 
+size_t pir_box_parts_size(const pir_box_parts *parts) {
+    return parts->points * sizeof *parts->x + parts->cells * sizeof *parts->cell;
+}
+
 static const double (*points_of(const pir_box_parts *parts, const pir_box_cell *cell))[3] {
     return (const double(*)[3])(parts->x + cell->first);
 }

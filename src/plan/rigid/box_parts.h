@@ -19,7 +19,7 @@ typedef struct pir_rigid_question {
     pir_quat rotation[2];   /* likewise */
     uint32_t most_boxes;    /* of rotations */
     uint32_t most_parts;    /* of the boxes of one division */
-    size_t memory;          /* of one division */
+    size_t memory;          /* of one division, and of all parts that are kept */
 } pir_rigid_question;
 
 typedef struct pir_box_division {
@@ -55,6 +55,9 @@ typedef struct pir_box_parts {
 pir_status pir_box_parts_make(const pir_rigid_question *question, const pir_plan_pieces *robot,
                               pir_box_parts *ret_parts);
 void pir_box_parts_finish(pir_box_parts *parts);
+
+/* The bytes that parts take. */
+size_t pir_box_parts_size(const pir_box_parts *parts);
 
 /* Whether two cells may share a point: false is proven. */
 bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,

@@ -92,6 +92,7 @@ void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
             touch_both(job, first + i, first + k);
     pir_rigid_leaf *old = &job->leaf[leaf];
     free_links(old);
+    job->kept -= pir_box_parts_size(&old->inner);
     pir_box_parts_finish(&old->inner);
     old->is_divided = true;
     job->alive--;
@@ -168,6 +169,14 @@ static void link_leaf(void *data, uint32_t index) {
     }
 }
 
+/* Counts what a division left. */
+static void count_parts(pir_rigid_job *job, const pir_box_parts *parts) {
+    job->parts += parts->nodes;
+    job->kept += pir_box_parts_size(parts);
+    if (job->kept > job->question->memory && job->status == PIR_OK)
+        job->status = PIR_ERR_LIMIT;
+}
+
 static void share(pir_rigid_job *job, void (*task)(void *data, uint32_t index), uint32_t count) {
     job->tasks.start(job->tasks.context, task, job, count);
     job->tasks.finish(job->tasks.context);
@@ -178,7 +187,7 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
     share(job, make_leaf, count);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
         job->status = job->leaf[i].status;
-        job->parts += job->leaf[i].inner.nodes;
+        count_parts(job, &job->leaf[i].inner);
     }
     if (job->status != PIR_OK)
         return;
@@ -191,7 +200,7 @@ void pir_rigid_boxes_fill(pir_rigid_job *job) {
     share(job, fill_leaf, job->listed);
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
         job->status = job->leaf[job->list[i]].status;
-        job->parts += job->leaf[job->list[i]].middle.nodes;
+        count_parts(job, &job->leaf[job->list[i]].middle);
     }
 }
 

@@ -82,6 +82,7 @@ typedef struct pir_rigid_job {
     pir_rigid_turn *turn;
     uint32_t turns, turn_room;
     uint64_t parts; /* of all divisions */
+    size_t kept;    /* bytes of parts */
     pir_workspace *workspace;
 } pir_rigid_job;
 
