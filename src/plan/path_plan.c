@@ -68,20 +68,15 @@ static pir_status check_question(const struct question *q) {
 
 /* --- stages --- */
 
-static pir_status add_pieces(pir_path_plan *plan, const pir_solid *const *solid, size_t count,
-                             pir_plan_pieces *pieces) {
-    pir_status status = PIR_OK;
-    for (size_t i = 0; i < count && status == PIR_OK; i++)
-        status = pir_plan_pieces_add(&plan->space, solid[i], (uint32_t)i, pieces);
-    return status;
-}
-
-static pir_status make_sums(pir_path_plan *plan, const pir_path_plan_input *input) {
-    pir_status status = add_pieces(plan, input->robot, input->robot_count, &plan->robot);
+static pir_status make_sums(pir_path_plan *plan, const struct question *q) {
+    const pir_path_plan_input *in = q->input;
+    pir_status status =
+        pir_plan_pieces_add(&plan->space, in->robot, in->robot_count, "robot", q->how.report, &plan->robot);
     if (status == PIR_OK)
-        status = add_pieces(plan, input->obstacles, input->obstacle_count, &plan->obstacles);
+        status = pir_plan_pieces_add(&plan->space, in->obstacles, in->obstacle_count, "obstacle", q->how.report,
+                                     &plan->obstacles);
     if (status == PIR_OK)
-        status = pir_plan_sums_make(&plan->space, &plan->robot, &plan->obstacles, input->rotation, &plan->sums);
+        status = pir_plan_sums_make(&plan->space, &plan->robot, &plan->obstacles, in->rotation, &plan->sums);
     return status;
 }
 
@@ -160,7 +155,7 @@ static void fill_info(pir_path_plan *plan) {
 static pir_status make_plan(pir_path_plan *plan, const struct question *q) {
     pir_plan_space *space = &plan->space;
     pir_plan_cutter cutter = {.space = space};
-    pir_status status = make_sums(plan, q->input);
+    pir_status status = make_sums(plan, q);
     if (status == PIR_OK)
         status = make_ends(plan, q);
     if (status == PIR_OK)

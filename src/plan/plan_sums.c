@@ -5,11 +5,12 @@
 #include <pirouette/exact.h>
 #include <pirouette/sum.h>
 
+#include "base/report.h"
 #include "plan/plan_cell.h"
 
 /* --- pieces --- */
 
-pir_status pir_plan_pieces_add(pir_plan_space *space, const pir_solid *solid, uint32_t body, pir_plan_pieces *pieces) {
+static pir_status add_solid(pir_plan_space *space, const pir_solid *solid, uint32_t body, pir_plan_pieces *pieces) {
     const pir_decompose_options how = {
         sizeof how, &space->allocator, space->limit - space->used, NULL, PIR_DECOMPOSE_BEST, 0, 0};
     pir_pieces *own = NULL;
@@ -26,6 +27,19 @@ pir_status pir_plan_pieces_add(pir_plan_space *space, const pir_solid *solid, ui
         pieces->count += status == PIR_OK;
     }
     pir_pieces_destroy(own);
+    return status;
+}
+
+pir_status pir_plan_pieces_add(pir_plan_space *space, const pir_solid *const *solid, size_t count, const char *what,
+                               pir_report *report, pir_plan_pieces *pieces) {
+    pir_status status = PIR_OK;
+    if (count == 0)
+        return pir_fail(report, PIR_ERR_EMPTY, "plan: there is no %s", what);
+    for (size_t i = 0; i < count && status == PIR_OK; i++) {
+        if (!solid || !solid[i])
+            return pir_fail(report, PIR_ERR_ARGUMENT, "plan: a solid is NULL");
+        status = add_solid(space, solid[i], (uint32_t)i, pieces);
+    }
     return status;
 }
 

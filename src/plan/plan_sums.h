@@ -32,8 +32,9 @@ typedef struct pir_plan_sums {
     uint32_t count, room, half_count, half_room, corner_count, corner_room;
 } pir_plan_sums;
 
-/* Adds the pieces of a solid, as those of a body. */
-pir_status pir_plan_pieces_add(pir_plan_space *space, const pir_solid *solid, uint32_t body, pir_plan_pieces *pieces);
+/* Adds the pieces of all solids of a side, called `what`, as those of bodies; PIR_ERR_EMPTY where there is none. */
+pir_status pir_plan_pieces_add(pir_plan_space *space, const pir_solid *const *solid, size_t count, const char *what,
+                               pir_report *report, pir_plan_pieces *pieces);
 void pir_plan_pieces_finish(pir_plan_space *space, pir_plan_pieces *pieces);
 
 /* Makes the sums of all pairs of pieces. */

@@ -59,24 +59,12 @@ static pir_status check_numbers(const struct turn_call *t) {
     return PIR_OK;
 }
 
-static pir_status add_all(struct turn_call *t, const pir_solid *const *solid, size_t count, const char *what,
-                          pir_plan_pieces *pieces) {
-    pir_status status = PIR_OK;
-    if (count == 0)
-        return pir_fail(t->how.report, PIR_ERR_EMPTY, "plan: there is no %s", what);
-    for (size_t i = 0; i < count && status == PIR_OK; i++) {
-        if (!solid || !solid[i])
-            return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: a solid is NULL");
-        status = pir_plan_pieces_add(&t->space, solid[i], (uint32_t)i, pieces);
-    }
-    return status;
-}
-
 static pir_status decide(struct turn_call *t, pir_turn_plan *plan) {
     const pir_turn_plan_input *in = t->input;
-    pir_status status = add_all(t, in->robot, in->robot_count, "robot", &t->robot);
+    pir_status status = pir_plan_pieces_add(&t->space, in->robot, in->robot_count, "robot", t->how.report, &t->robot);
     if (status == PIR_OK)
-        status = add_all(t, in->obstacles, in->obstacle_count, "obstacle", &t->obstacles);
+        status =
+            pir_plan_pieces_add(&t->space, in->obstacles, in->obstacle_count, "obstacle", t->how.report, &t->obstacles);
     if (status != PIR_OK)
         return status;
     // brought near 1 before it is squared

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "polytope/polytope.h"
+#include "scene/file/put_bytes.h"
 
 #define HAS_OWN   1u
 #define HAS_UNION 2u
@@ -20,28 +21,17 @@
 
 /* --- to bytes --- */
 
-static void put(uint8_t **at, uint64_t value, int bytes) {
-    for (int k = 0; k < bytes; k++)
-        *(*at)++ = (uint8_t)(value >> (8 * k));
-}
-
-static void put_double(uint8_t **at, double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put(at, bits, 8);
-}
-
 static void put_vec(uint8_t **at, pir_vec3 v) {
-    put_double(at, v.x);
-    put_double(at, v.y);
-    put_double(at, v.z);
+    pir_put_double(at, v.x);
+    pir_put_double(at, v.y);
+    pir_put_double(at, v.z);
 }
 
 static void put_seen(uint8_t **at, const pir_seen *seen) {
     put_vec(at, (pir_vec3){seen->rotation.x, seen->rotation.y, seen->rotation.z});
-    put_double(at, seen->rotation.w);
+    pir_put_double(at, seen->rotation.w);
     put_vec(at, seen->translation);
-    put_double(at, seen->error);
+    pir_put_double(at, seen->error);
 }
 
 static void put_contacts(uint8_t **at, const pir_kept_record *record) {
@@ -50,8 +40,8 @@ static void put_contacts(uint8_t **at, const pir_kept_record *record) {
         put_vec(at, contact->point[0]);
         put_vec(at, contact->point[1]);
         put_vec(at, contact->normal);
-        put(at, contact->id, 8);
-        put(at, contact->place, 8);
+        pir_put_bytes(at, contact->id, 8);
+        pir_put_bytes(at, contact->place, 8);
     }
 }
 
@@ -69,18 +59,18 @@ void pir_put_kept(uint8_t **at, const pir_scene_pair *pair, uint32_t first) {
                                 united ? first : 0,
                                 own ? (uint32_t)own->answer.state : 0};
     for (int k = 0; k < 6; k++)
-        put(at, header[k], 4);
+        pir_put_bytes(at, header[k], 4);
     if (own) {
         const pir_witness *witness = &own->answer.witness;
         put_seen(at, &own->answer.seen);
-        put_double(at, own->answer.distance);
+        pir_put_double(at, own->answer.distance);
         put_vec(at, own->answer.point[0]);
         put_vec(at, own->answer.point[1]);
         put_vec(at, own->answer.normal);
-        put(at, witness->p.kind, 4);
-        put(at, witness->p.index, 4);
-        put(at, witness->q.kind, 4);
-        put(at, witness->q.index, 4);
+        pir_put_bytes(at, witness->p.kind, 4);
+        pir_put_bytes(at, witness->p.index, 4);
+        pir_put_bytes(at, witness->q.kind, 4);
+        pir_put_bytes(at, witness->q.index, 4);
         put_seen(at, &own->made);
         put_contacts(at, own);
     }

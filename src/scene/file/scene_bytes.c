@@ -9,18 +9,8 @@
 #include "scene/answer/events.h"
 #include "scene/change/changes.h"
 #include "scene/file/kept_bytes.h"
+#include "scene/file/put_bytes.h"
 #include "scene/world/grow.h"
-
-static void put(uint8_t **at, uint64_t value, int bytes) {
-    for (int k = 0; k < bytes; k++)
-        *(*at)++ = (uint8_t)(value >> (8 * k));
-}
-
-static void put_double(uint8_t **at, double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put(at, bits, 8);
-}
 
 uint64_t pir_snapshot_checksum(const uint8_t *data, size_t size) {
     const uint64_t hash = pir_hash_words(PIR_HASH_START, data, PIR_SNAPSHOT_CHECKSUM_AT);
@@ -66,12 +56,12 @@ size_t pir_scene_serialised_size(const pir_scene *scene) {
 static void put_header(uint8_t **at, const pir_scene *scene, const pir_snapshot_counts *counts) {
     memcpy(*at, PIR_SNAPSHOT_MAGIC, 8);
     *at += 8;
-    put(at, scene->reuse > 0 ? PIR_SNAPSHOT_LAST : PIR_SNAPSHOT_VERSION, 4);
-    put(at, counts->numbers, 4);
-    put(at, counts->bodies, 4);
-    put(at, counts->users, 4);
-    put(at, counts->contacts, 4);
-    put(at, counts->ends, 4);
+    pir_put_bytes(at, scene->reuse > 0 ? PIR_SNAPSHOT_LAST : PIR_SNAPSHOT_VERSION, 4);
+    pir_put_bytes(at, counts->numbers, 4);
+    pir_put_bytes(at, counts->bodies, 4);
+    pir_put_bytes(at, counts->users, 4);
+    pir_put_bytes(at, counts->contacts, 4);
+    pir_put_bytes(at, counts->ends, 4);
     *at += 8;
 }
 
@@ -80,33 +70,33 @@ static void put_body(uint8_t **at, const pir_scene *scene, uint32_t number) {
     const pir_quat q = body->pose.rotation;
     const pir_vec3 t = body->pose.translation;
     const double numbers[9] = {body->radius, body->fast, q.x, q.y, q.z, q.w, t.x, t.y, t.z};
-    put(at, pir_body_id(&scene->bodies, number), 4);
-    put(at, body->pieces, 4);
-    put(at, body->kind, 1);
-    put(at,
-        (body->sensor ? PIR_SNAPSHOT_SENSOR : 0u) | (body->disabled ? PIR_SNAPSHOT_DISABLED : 0u) |
-            (body->fresh ? PIR_SNAPSHOT_FRESH : 0u) | (has_users(scene, body) ? PIR_SNAPSHOT_USERS : 0u),
-        3);
-    put(at, body->category, 4);
-    put(at, body->mask, 4);
-    put(at, 0, 4);
-    put(at, body->user, 8);
-    put(at, body->shape, 8);
+    pir_put_bytes(at, pir_body_id(&scene->bodies, number), 4);
+    pir_put_bytes(at, body->pieces, 4);
+    pir_put_bytes(at, body->kind, 1);
+    pir_put_bytes(at,
+                  (body->sensor ? PIR_SNAPSHOT_SENSOR : 0u) | (body->disabled ? PIR_SNAPSHOT_DISABLED : 0u) |
+                      (body->fresh ? PIR_SNAPSHOT_FRESH : 0u) | (has_users(scene, body) ? PIR_SNAPSHOT_USERS : 0u),
+                  3);
+    pir_put_bytes(at, body->category, 4);
+    pir_put_bytes(at, body->mask, 4);
+    pir_put_bytes(at, 0, 4);
+    pir_put_bytes(at, body->user, 8);
+    pir_put_bytes(at, body->shape, 8);
     for (int k = 0; k < 9; k++)
-        put_double(at, numbers[k]);
+        pir_put_double(at, numbers[k]);
 }
 
 static void put_bodies(uint8_t **at, const pir_scene *scene, uint32_t numbers) {
     const pir_bodies *bodies = &scene->bodies;
     for (uint32_t b = 0; b < numbers + numbers % 2; b++)
-        put(at, b < numbers ? bodies->body[b].generation : 0, 4);
+        pir_put_bytes(at, b < numbers ? bodies->body[b].generation : 0, 4);
     for (uint32_t b = 0; b < bodies->body_end; b++)
         if (bodies->body[b].used)
             put_body(at, scene, b);
     for (uint32_t b = 0; b < bodies->body_end; b++)
         if (bodies->body[b].used && has_users(scene, &bodies->body[b]))
             for (uint32_t i = bodies->body[b].first; i != PIR_PIECE_NONE; i = bodies->piece[i].next)
-                put(at, bodies->piece[i].user, 8);
+                pir_put_bytes(at, bodies->piece[i].user, 8);
 }
 
 /* The contacts and the ends in order, these behind those in scene->lists.item. */
@@ -127,14 +117,14 @@ static void sort_contacts(pir_scene *scene) {
 static void put_contacts(uint8_t **at, const pir_scene *scene, uint32_t count) {
     for (uint32_t i = 0; i < count; i++) {
         const pir_scene_item *item = &scene->lists.item[i];
-        put(at, item->key.bodies, 8);
-        put(at, item->key.pieces, 8);
+        pir_put_bytes(at, item->key.bodies, 8);
+        pir_put_bytes(at, item->key.pieces, 8);
         if (item->pair != PIR_END_NONE)
             continue;
         const pir_scene_gone *gone = &scene->gone[item->group];
         const uint64_t told[5] = {gone->user[0], gone->user[1], gone->piece_user[0], gone->piece_user[1], gone->sensor};
         for (int k = 0; k < 5; k++)
-            put(at, told[k], 8);
+            pir_put_bytes(at, told[k], 8);
     }
 }
 
@@ -187,6 +177,6 @@ pir_status pir_scene_serialise(pir_scene *scene, void *memory, size_t size) {
     if (scene->reuse > 0)
         put_kept(&at, scene, counts.contacts);
     at = (uint8_t *)memory + PIR_SNAPSHOT_CHECKSUM_AT;
-    put(&at, pir_snapshot_checksum(memory, size), 8);
+    pir_put_bytes(&at, pir_snapshot_checksum(memory, size), 8);
     return PIR_OK;
 }
