@@ -98,13 +98,14 @@ static void hole_lies_in_the_innermost_facet_that_doubles_cannot_tell(void **sta
     (void)state;
     begin(60);
     pir_union_outline outline;
-    pir_loop_list loops;
+    pir_loop_list loops = {0};
     pir_union_outline_init(&outline, &space);
     const uint32_t half = pir_half(plane(direction(0, 0, 1), point(0, 0, 0)), false);
     const long r = 1L << 58;
     for (int i = 0; i < 4; i++)
         add_square(&outline, half, r - i, i % 2);
     outline.loose = 1;
+    pir_loops_begin(&loops, &space);
     pir_loops_trace(&loops, &outline);
     assert_int_equal(space.status, PIR_OK);
     assert_int_equal(loops.facet_count, 2);
@@ -122,13 +123,14 @@ static void outline_that_does_not_close_ends_the_job(void **state) {
     for (uint32_t drop = 0; drop < 4; drop++) {
         begin(40);
         pir_union_outline outline;
-        pir_loop_list loops;
+        pir_loop_list loops = {0};
         pir_union_outline_init(&outline, &space);
         const uint32_t half = pir_half(plane(direction(0, 0, 1), point(0, 0, 0)), false);
         add_square(&outline, half, 100, false);
         outline.run[drop] = outline.run[--outline.run_count];
         // and one that leads into a loop which it is no part of
         pir_union_outline_push(&outline, (pir_run){0, half, 9, point(7, 500, 0), outline.run[0].a, 1});
+        pir_loops_begin(&loops, &space);
         pir_loops_trace(&loops, &outline);
         assert_int_equal(space.status, PIR_ERR_INTERNAL);
         pir_loop_list_finish(&loops);

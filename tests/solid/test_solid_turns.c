@@ -37,11 +37,21 @@ static pir_quat turned(pir_quat a, pir_vec3 axis, double angle) {
     return (pir_quat){r.x * by, r.y * by, r.z * by, r.w * by};
 }
 
+/* A quaternion of small whole numbers, or a hair beside one: points meet, and planes of facets are one, that are not so
+ * at rest. */
+static pir_quat whole_rotation(test_random *random) {
+    double x[4];
+    const double hair = test_random_below(random, 3) == 0 ? ldexp(1, -8 - (int)test_random_below(random, 40)) : 0;
+    for (int k = 0; k < 4; k++)
+        x[k] = (double)test_random_below(random, 9) - 4 + hair * ((double)test_random_below(random, 3) - 1);
+    return (pir_quat){x[0], x[1], x[2], x[3] + 5};
+}
+
 /* A few frames of one kind, then of another. */
 static pir_quat next_rotation(struct history *h) {
     static const double steps[] = {2e-5, 1.3e-3, 1.3e-2, .13};
     if (test_random_below(&h->random, 8) == 0) {
-        h->kind = (int)test_random_below(&h->random, 8);
+        h->kind = (int)test_random_below(&h->random, 9);
         h->axis = test_random_direction(&h->random);
         h->step = steps[test_random_below(&h->random, 4)];
         if (test_random_below(&h->random, 3) == 0)
@@ -54,6 +64,8 @@ static pir_quat next_rotation(struct history *h) {
         h->now = turned(h->now, test_random_direction(&h->random), 2 * test_random_unit(&h->random));
     else if (h->kind == 2)
         h->step = -h->step;
+    else if (h->kind == 8)
+        return h->now = whole_rotation(&h->random);
     if (h->kind > 1)
         h->now = turned(h->now, h->axis, h->step);
     return h->now;
@@ -94,12 +106,12 @@ static void expect_same(pir_solid_sum *sum, pir_solid_sum *fresh, const char *wh
 
 static void sum_is_that_made_anew_at_every_rotation(void **state) {
     (void)state;
-    static const char *const pairs[][2] = {
-        {"clamp", "cube"}, {"frame", "star5"}, {"stella", "clamp"}, {"star5", "stella"}, {"mushroom6", "case"}};
+    static const char *const pairs[][2] = {{"clamp", "cube"},   {"frame", "star5"},    {"stella", "clamp"},
+                                           {"star5", "stella"}, {"mushroom6", "case"}, {"ell", "frame"}};
     for (uint64_t i = 0; i < 2 * sizeof pairs / sizeof *pairs; i++) {
         const char *const *name = pairs[i / 2];
         struct history history = {.random = test_random_case("turns", i), .now = {0, 0, 0, 1}, .axis = {0, 0, 1}};
-        pir_solid *p = solid_model_new(name[0], 1), *q = solid_model_new(name[1], 2);
+        pir_solid *p = solid_model_new(name[0], 1), *q = solid_model_new(name[1], i < 10 ? 2 : 1);
         pir_solid_sum_options options = pir_solid_sum_options_default();
         pir_solid_sum *sum = NULL;
         double scale[2] = {1, 1};
@@ -134,6 +146,24 @@ static void sum_is_that_made_anew_at_every_rotation(void **state) {
         pir_solid_release(q);
         pir_solid_release(p);
     }
+}
+
+/* At these rotations planes of candidates are one that are not at others, and one of them does not bound the sum. */
+static void facets_stand_in_the_order_of_a_sum_made_anew(void **state) {
+    (void)state;
+    static const pir_quat rotations[] = {{1, 4, 0, 6}, {2, -3, -4, 4}, {2, 1, -3, 3}};
+    pir_solid *p = solid_model_new("ell", 1), *q = solid_model_new("frame", 1);
+    for (size_t i = 0; i < sizeof rotations / sizeof *rotations; i++) {
+        pir_solid_sum *kept = NULL, *fresh = NULL;
+        assert_int_equal(pir_solid_sum_create(p, q, (pir_quat){.3, .1, .2, .9}, NULL, &kept), PIR_OK);
+        assert_int_equal(pir_solid_sum_create(p, q, rotations[i], NULL, &fresh), PIR_OK);
+        assert_int_equal(pir_solid_sum_rotate(kept, rotations[i], PIR_SOLID_UPDATE), PIR_OK);
+        expect_same(kept, fresh, "ell ⊕ frame", i);
+        pir_solid_sum_destroy(kept);
+        pir_solid_sum_destroy(fresh);
+    }
+    pir_solid_release(p);
+    pir_solid_release(q);
 }
 
 /* The exact volume of a sum. */
@@ -305,6 +335,7 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sum_is_that_made_anew_at_every_rotation),
+        cmocka_unit_test(facets_stand_in_the_order_of_a_sum_made_anew),
         cmocka_unit_test(scaled_sum_is_that_of_scaled_solids),
         cmocka_unit_test(refused_call_leaves_the_sum_as_it_was),
         cmocka_unit_test(sum_outlives_rotations_that_run_out_of_memory),

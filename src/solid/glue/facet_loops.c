@@ -11,6 +11,7 @@
 #include "solid/glue/facet_loops.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/sort.h"
 #include "solid/glue/slits.h"
@@ -46,10 +47,10 @@ static void push_corner(pir_loop_list *list, uint32_t point) {
 /* How a loop turns that comes from p to q and goes on along `run`: 2 to the left, 1 straight on, 0 to the right, −1
  * back. */
 static int turn_of(struct loop_tracer *t, const pir_run *from, const pir_run *run) {
+    if (from->line == run->line)
+        return from->sign == run->sign ? 1 : -1;
     const int turn = pir_space_turn(t->space, t->half, from_of(from), to_of(from), to_of(run));
-    if (turn != 0)
-        return turn > 0 ? 2 : 0;
-    return from->line == run->line && from->sign == run->sign ? 1 : -1;
+    return turn > 0 ? 2 : turn < 0 ? 0 : -1;
 }
 
 /* Whether `b` turns more to the left than `a`, after `from`. */
@@ -133,6 +134,10 @@ static void sort_loops(struct loop_tracer *t) {
     const pir_allocator *a = &t->space->allocator;
     const uint32_t count = t->list->count - t->first_loop;
     pir_loop *loop = t->list->loop + t->first_loop;
+    if (count == 1) {
+        loop->within = t->first_loop;
+        return;
+    }
     uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
     pir_loop *copy = PIR_NEW(a, pir_loop, count);
     if (order && work && copy) {
@@ -272,17 +277,35 @@ static void trace_group(struct loop_tracer *t) {
             pir_loops_add_facet(list, t->half, l);
 }
 
+void pir_loops_begin(pir_loop_list *loops, pir_space *space) {
+    loops->space = space;
+    loops->count = loops->corner_count = loops->facet_count = loops->facet_corner_count = 0;
+    loops->boundary_count = loops->hole_count = 0;
+}
+
+void pir_loops_push_corner(pir_loop_list *loops, uint32_t point) {
+    if (pir_space_grow(loops->space, (void **)&loops->facet_corner, &loops->facet_corner_room,
+                       loops->facet_corner_count, sizeof *loops->facet_corner))
+        loops->facet_corner[loops->facet_corner_count++] = point;
+}
+
+void pir_loops_end_facet(pir_loop_list *loops) {
+    if (pir_space_grow(loops->space, (void **)&loops->facet, &loops->facet_room, loops->facet_count,
+                       sizeof *loops->facet))
+        loops->facet[loops->facet_count++] = loops->facet_corner_count;
+}
+
 void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline) {
     pir_space *space = outline->space;
-    *loops = (pir_loop_list){.space = space};
     struct loop_tracer t = {.list = loops, .space = space, .outline = outline};
     mpz_set_ui(space->t[0], 61);
     mpz_set_ui(space->t[1], 53);
     mpz_set_ui(space->t[2], 41);
     t.along = pir_space_add_direction(space, space->t[0], space->t[1], space->t[2]);
-    t.used = PIR_ZEROED(&space->allocator, bool, outline->run_count);
-    if (!t.used)
-        space->status = PIR_ERR_MEMORY;
+    if (!pir_space_grow(space, (void **)&loops->used, &loops->used_room, outline->run_count, sizeof *loops->used))
+        return;
+    t.used = loops->used;
+    memset(t.used, 0, outline->run_count * sizeof *t.used);
     for (t.first = 0; t.first < outline->run_count && space->status == PIR_OK; t.first = t.end) {
         const pir_run run = outline->run[t.first];
         t.half = run.half;
@@ -293,7 +316,6 @@ void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline) {
         if (run.group < outline->loose)
             loops->boundary_count = loops->facet_count;
     }
-    PIR_FREE(&space->allocator, t.used, outline->run_count);
 }
 
 void pir_loop_list_finish(pir_loop_list *loops) {
@@ -304,5 +326,7 @@ void pir_loop_list_finish(pir_loop_list *loops) {
     pir_space_shrink(loops->space, loops->facet, loops->facet_room, sizeof *loops->facet);
     pir_space_shrink(loops->space, loops->facet_corner, loops->facet_corner_room, sizeof *loops->facet_corner);
     pir_space_shrink(loops->space, loops->spare, loops->spare_room, sizeof *loops->spare);
+    pir_space_shrink(loops->space, loops->used, loops->used_room, sizeof *loops->used);
+    pir_space_shrink(loops->space, loops->seat, loops->seat_room, sizeof *loops->seat);
     *loops = (pir_loop_list){0};
 }

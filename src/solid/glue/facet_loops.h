@@ -22,9 +22,18 @@ typedef struct pir_loop_list {
     uint32_t *facet_corner;
     uint32_t *spare, spare_count, spare_room; /* scratch: the corners of the facet at hand */
     uint32_t hole_count;
+    bool *used; /* scratch, per run */
+    uint32_t used_room, *seat, seat_room;
 } pir_loop_list;
 
-/* Traces the runs of an outline that has been cut, those of one group after the other. */
+/* Takes all out, and keeps the memory. */
+void pir_loops_begin(pir_loop_list *loops, pir_space *space);
+
+/* Adds a corner to the facet at hand, a point; and ends that facet. */
+void pir_loops_push_corner(pir_loop_list *loops, uint32_t point);
+void pir_loops_end_facet(pir_loop_list *loops);
+
+/* Traces the runs of an outline that has been cut, those of one group after the other; adds their facets. */
 void pir_loops_trace(pir_loop_list *loops, const pir_union_outline *outline);
 void pir_loop_list_finish(pir_loop_list *loops);
 

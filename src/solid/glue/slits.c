@@ -120,13 +120,7 @@ void pir_loops_add_facet(pir_loop_list *loops, uint32_t half, uint32_t outer) {
         push(loops, loops->corner[loop.first + i]);
     while (join_hole(loops, half, outer))
         ;
-    for (uint32_t i = 0; i < loops->spare_count; i++) {
-        if (!pir_space_grow(loops->space, (void **)&loops->facet_corner, &loops->facet_corner_room,
-                            loops->facet_corner_count, sizeof *loops->facet_corner))
-            return;
-        loops->facet_corner[loops->facet_corner_count++] = loops->spare[i];
-    }
-    if (pir_space_grow(loops->space, (void **)&loops->facet, &loops->facet_room, loops->facet_count,
-                       sizeof *loops->facet))
-        loops->facet[loops->facet_count++] = loops->facet_corner_count;
+    for (uint32_t i = 0; i < loops->spare_count; i++)
+        pir_loops_push_corner(loops, loops->spare[i]);
+    pir_loops_end_facet(loops);
 }

@@ -31,7 +31,16 @@ void pir_union_outline_finish(pir_union_outline *outline) {
     pir_space_shrink(space, outline->order, outline->order_room, sizeof *outline->order);
     pir_space_shrink(space, outline->work, outline->work_room, sizeof *outline->work);
     pir_space_shrink(space, outline->place, outline->place_room, sizeof *outline->place);
+    pir_space_shrink(space, outline->rank, outline->rank_room, sizeof *outline->rank);
+    pir_space_shrink(space, outline->chain, outline->chain_room, sizeof *outline->chain);
     *outline = (pir_union_outline){0};
+}
+
+void pir_union_outline_clear(pir_union_outline *outline) {
+    pir_places_clear(&outline->points);
+    pir_places_clear(&outline->lines);
+    outline->run_count = outline->side_count = outline->touch_count = outline->chain_count = 0;
+    outline->loose = PIR_SPACE_NONE;
 }
 
 /* --- lines --- */
@@ -73,14 +82,19 @@ void pir_union_outline_push_side(pir_union_outline *o, pir_run side) {
         o->side[o->side_count++] = side;
 }
 
-bool pir_union_outline_sort(pir_union_outline *o, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
+bool pir_union_outline_order(pir_union_outline *o, uint32_t count, bool (*before)(void *, uint32_t, uint32_t),
+                             void *context) {
     if (!pir_space_grow(o->space, (void **)&o->order, &o->order_room, count, sizeof *o->order) ||
         !pir_space_grow(o->space, (void **)&o->work, &o->work_room, count, sizeof *o->work))
         return false;
     for (uint32_t i = 0; i < count; i++)
         o->order[i] = i;
-    pir_sort(o->order, count, o->work, before, o);
+    pir_sort(o->order, count, o->work, before, context);
     return true;
+}
+
+bool pir_union_outline_sort(pir_union_outline *o, uint32_t count, bool (*before)(void *, uint32_t, uint32_t)) {
+    return pir_union_outline_order(o, count, before, o);
 }
 
 /* --- the places of ends along a line --- */
@@ -132,8 +146,24 @@ static int sum_between(const pir_union_outline *o, const uint32_t *order, uint32
     return (sum > 0) - (sum < 0);
 }
 
+static void push_link(pir_union_outline *o, uint32_t number) {
+    if (pir_space_grow(o->space, (void **)&o->chain, &o->chain_room, o->chain_count, sizeof *o->chain))
+        o->chain[o->chain_count++] = number;
+}
+
+/* Notes the places of a line. */
+static void keep_chain(pir_union_outline *o, uint32_t line) {
+    if (!o->keeps_chains || o->place_count < 3)
+        return;
+    push_link(o, o->line_plane[line][1]);
+    push_link(o, o->place_count);
+    for (uint32_t i = 0; i < o->place_count; i++)
+        push_link(o, o->place[i]);
+}
+
 /* The runs of one line, from its sides. */
-static void add_line(pir_union_outline *o, const uint32_t *order, uint32_t count, uint32_t *rank) {
+static void add_line(pir_union_outline *o, const uint32_t *order, uint32_t count) {
+    uint32_t *rank = o->rank;
     const pir_run first = o->side[order[0]];
     o->place_count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -142,6 +172,7 @@ static void add_line(pir_union_outline *o, const uint32_t *order, uint32_t count
     }
     if (!pir_union_outline_sort_places(o, first.line))
         return;
+    keep_chain(o, first.line);
     for (uint32_t i = 0; i < o->place_count; i++)
         rank[o->place[i]] = i;
     int sum = 0;
@@ -172,17 +203,14 @@ static void add_side(pir_union_outline *o, pir_run side, uint32_t p, uint32_t q)
 
 /* The runs of all sides, line by line. */
 static void add_lines(pir_union_outline *o) {
-    const uint32_t points = o->space->point_count;
-    uint32_t *rank = PIR_NEW(&o->space->allocator, uint32_t, points);
-    if (!rank)
-        o->space->status = PIR_ERR_MEMORY;
-    if (rank && pir_union_outline_sort(o, o->side_count, side_before))
-        for (uint32_t i = 0, end; i < o->side_count && o->space->status == PIR_OK; i = end) {
-            for (end = i + 1; end < o->side_count && !side_before(o, o->order[i], o->order[end]); end++)
-                ;
-            add_line(o, o->order + i, end - i, rank);
-        }
-    PIR_FREE(&o->space->allocator, rank, points);
+    if (!pir_space_grow(o->space, (void **)&o->rank, &o->rank_room, o->space->point_count, sizeof *o->rank) ||
+        !pir_union_outline_sort(o, o->side_count, side_before))
+        return;
+    for (uint32_t i = 0, end; i < o->side_count && o->space->status == PIR_OK; i = end) {
+        for (end = i + 1; end < o->side_count && !side_before(o, o->order[i], o->order[end]); end++)
+            ;
+        add_line(o, o->order + i, end - i);
+    }
 }
 
 void pir_union_outline_add(pir_union_outline *outline, uint32_t group, uint32_t half, const pir_segment *edge,

@@ -51,7 +51,11 @@ typedef struct pir_union_outline {
     uint32_t side_count, side_room;
     pir_outline_touch *touch; /* by line */
     uint32_t touch_count, touch_room;
-    uint32_t *order, order_room, *work, work_room, *place, place_room, place_count;
+    uint32_t *order, order_room, *work, work_room, *place, place_room, place_count, *rank, rank_room;
+    /* Of each line of the group at hand with more than two ends, where they are wanted: the other plane through it, how
+     * many there are, and these in order. */
+    bool keeps_chains;
+    uint32_t *chain, chain_count, chain_room;
 } pir_union_outline;
 
 void pir_union_outline_init(pir_union_outline *outline, pir_space *space);
@@ -59,6 +63,9 @@ void pir_union_outline_finish(pir_union_outline *outline);
 
 /* The line where two planes meet, and its direction. */
 uint32_t pir_union_outline_line(pir_union_outline *outline, uint32_t f, uint32_t g);
+
+/* Takes all points, lines and runs out, and keeps the memory. */
+void pir_union_outline_clear(pir_union_outline *outline);
 
 /* Adds edges in the plane of `half`, which is the first plane of each, as a group: they lead from a to b with the union
  * that they bound on their left, and do not overlap. */
@@ -73,7 +80,10 @@ void pir_union_outline_add_segments(pir_union_outline *outline, uint32_t group, 
 void pir_union_outline_push(pir_union_outline *outline, pir_run run);
 void pir_union_outline_push_side(pir_union_outline *outline, pir_run side);
 
-/* Puts 0 .. count in order into `order`; the order holds with equal ones as they stand. False when out of memory. */
+/* Puts 0 .. count in order into `order`; the order holds with equal ones as they stand. False when out of memory. The
+ * context is the outline, or another. */
+bool pir_union_outline_order(pir_union_outline *outline, uint32_t count, bool (*before)(void *, uint32_t, uint32_t),
+                             void *context);
 bool pir_union_outline_sort(pir_union_outline *outline, uint32_t count, bool (*before)(void *, uint32_t, uint32_t));
 
 /* Adds a place to those collected, and puts them in order along a line, each once. */

@@ -12,7 +12,7 @@ void pir_kept_facet_unclip(pir_facet_maker *maker, pir_plane_facet *facet) {
     facet->corners.count = facet->edge.count = 0;
     facet->survivors = 0;
     facet->told_until = (double)INFINITY;
-    facet->stands = facet->fleeting = false;
+    facet->stands = facet->fleeting = facet->outline.made = false;
 }
 
 /* --- clipping --- */
@@ -103,14 +103,17 @@ static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
 static double parted_distance(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_parted_polygon *parted,
                               uint32_t plane, bool *ret_sums) {
     pir_space *space = maker->space;
+    const pir_space_plane f = space->plane[plane];
+    const uint32_t *corner = facet->corners.number + parted->first;
     double least = (double)INFINITY;
     *ret_sums = true;
     for (uint32_t i = 0; i < parted->count && least > 0; i++) {
-        const uint32_t corner = facet->corners.number[parted->first + i];
-        if (!pir_space_look_at_point(space, corner))
+        if (!pir_space_sees_point(space, corner[i]))
             return 0;
-        *ret_sums = *ret_sums && space->point[corner].kind == PIR_POINT_SUM;
-        least = fmin(least, pir_sure_distance(space, plane, corner, 1));
+        const pir_space_point *p = &space->point[corner[i]];
+        const double own = f.n[0] * p->x[0] + f.n[1] * p->x[1] + f.n[2] * p->x[2] - f.d - (f.err + p->err + 0x1p-47);
+        *ret_sums &= p->kind == PIR_POINT_SUM;
+        least = own < least ? own : least;
     }
     return least;
 }
@@ -185,7 +188,6 @@ void pir_kept_facet_clip(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_record_end(space);
     keep_record(maker, facet);
     facet->stands = space->status == PIR_OK;
-    facet->renewed = space->frame;
     maker->made++;
 }
 
@@ -222,7 +224,7 @@ static bool hot_sides_stand(pir_facet_maker *maker, const pir_plane_facet *facet
     pir_space *space = maker->space;
     for (uint32_t i = 0; i < facet->hot_count; i++) {
         const pir_told_side side = facet->hot[i];
-        if (!pir_space_look_at_point(space, side.point) || !pir_space_look_at_plane(space, side.plane) ||
+        if (!pir_space_sees_point(space, side.point) || !pir_space_sees_plane(space, side.plane) ||
             pir_space_side(space, pir_half(side.plane, false), side.point) != side.sign)
             return false;
     }
@@ -298,19 +300,4 @@ bool pir_kept_facet_stands(pir_facet_maker *maker, pir_plane_facet *facet) {
                     (maker->pairs->dropped_count == 0 || !names_dropped(maker, facet)) &&
                     cold_sides_stand(maker, facet) && hot_sides_stand(maker, facet) && parted_stand(maker, facet);
     return facet->stands;
-}
-
-void pir_kept_facet_renew(pir_facet_maker *maker, pir_plane_facet *facet) {
-    pir_space *space = maker->space;
-    if (facet->renewed == space->frame)
-        return;
-    facet->renewed = space->frame;
-    pir_space_renew_plane(space, facet->half >> 1);
-    for (uint32_t i = 0; i < facet->edge.count; i++) {
-        const pir_segment *edge = &facet->edge.segment[i];
-        pir_space_renew_point(space, edge->a);
-        pir_space_renew_point(space, edge->b);
-        pir_space_renew_plane(space, edge->plane[0]);
-        pir_space_renew_plane(space, edge->plane[1]);
-    }
 }

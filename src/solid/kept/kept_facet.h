@@ -67,6 +67,26 @@ typedef struct pir_cut_plane {
     uint32_t plane, near;
 } pir_cut_plane;
 
+/* An edge of a facet's boundary: along the line where its plane meets another, between two vertices. */
+typedef struct pir_kept_run {
+    uint32_t plane, line; /* the line by a number of the facet's */
+    uint32_t a, b;
+    int sign; /* as of a pir_run */
+} pir_kept_run;
+
+/* The edges of a facet, once they are glued (kept_glue.h). Vertices are the glue's. */
+typedef struct pir_facet_outline {
+    bool made, is_traced;   /* whether what follows is there; whether loops are */
+    bool knotted;           /* loops that may not be the same at the next rotation, though all else is */
+    pir_number_list member; /* a point of the facet, then the vertex that it is at */
+    pir_number_list chain;  /* of each line with more than two ends: its plane, their number, and these in order */
+    pir_kept_run *run;
+    uint32_t run_count, run_room;
+    pir_number_list touch; /* a run, by order, then a vertex within it; along the run */
+    pir_number_list loop;  /* corners of all loops */
+    pir_number_list end;   /* of each loop in `loop` */
+} pir_facet_outline;
+
 typedef struct pir_plane_facet {
     pir_candidate_key *key; /* of all candidates in its plane */
     uint32_t key_count, key_room;
@@ -97,8 +117,8 @@ typedef struct pir_plane_facet {
     uint32_t cold_until_room;
     double told_until; /* the least of what is noted with cold sides */
     uint32_t survivors;
-    uint32_t renewed; /* the frame in which the doubles of its edges were made */
     pir_segment_list edge;
+    pir_facet_outline outline;
 } pir_plane_facet;
 
 /* The scratch that the making of facets shares. */
@@ -159,9 +179,6 @@ void pir_kept_facet_amend_pair(pir_facet_maker *maker, pir_plane_facet *facet, u
 
 /* Forgets what clipping left. */
 void pir_kept_facet_unclip(pir_facet_maker *maker, pir_plane_facet *facet);
-
-/* Makes the doubles of the points of the facet's edges. */
-void pir_kept_facet_renew(pir_facet_maker *maker, pir_plane_facet *facet);
 
 /* Makes numbers of points or planes spare. */
 void pir_give_back(pir_space *space, pir_space_spare *spare, pir_number_list *list);

@@ -7,7 +7,6 @@
 
 #include "base/sort.h"
 #include "solid/space/identity.h"
-#include "solid/space/places.h"
 
 /* The skin: pairs that may come near in so many steps as the last one are looked at in each frame; but never for a turn
  * by more than this. */
@@ -204,6 +203,7 @@ static void merge_facets(pir_kept_sum *kept) {
     }
     for (; old < kept->count; old++)
         drop_facet(kept, kept->facet[old]);
+    kept->is_listed = false;
     pir_plane_facet **facet = kept->facet;
     const uint32_t room = kept->room;
     kept->facet = kept->merged;
@@ -347,6 +347,7 @@ bool pir_kept_sum_make(pir_kept_sum *kept, const pir_shell_body body[2], pir_con
         return false;
     kept->maker = (pir_facet_maker){.space = space, .body = body, .pairs = &kept->pairs};
     pir_polygons_init(&kept->maker.polygons, space);
+    pir_kept_glue_init(&kept->glue, space);
     measure_body(kept, 0);
     measure_body(kept, 1);
     space->reuses = true;
@@ -395,24 +396,33 @@ static bool first_before(void *context, uint32_t a, uint32_t b) {
     return x.a != y.a ? x.a < y.a : x.b < y.b;
 }
 
-/* Whether the planes of all facets of which something is left are different, and none is another one reversed. */
-static bool planes_differ(pir_kept_sum *kept) {
-    pir_places planes;
-    bool differ = true;
-    pir_places_init(&planes, kept->space);
-    for (uint32_t i = 0; i < kept->count && differ; i++) {
-        const uint32_t half = kept->facet[i]->half;
-        differ = kept->facet[i]->edge.count == 0 ||
-                 (pir_places_half(&planes, half) >> 1 == half >> 1 && kept->space->status == PIR_OK);
-    }
-    pir_places_finish(&planes);
-    return differ;
+/* Lists the facets by their first candidates. */
+static bool list_by_candidates(pir_kept_sum *kept) {
+    pir_space *space = kept->space;
+    if (kept->is_listed)
+        return true;
+    if (!sort(kept, kept->count, first_before, kept->facet) ||
+        !pir_space_grow(space, (void **)&kept->by_candidate, &kept->by_candidate_room, kept->count,
+                        sizeof *kept->by_candidate))
+        return false;
+    memcpy(kept->by_candidate, kept->order, kept->count * sizeof *kept->order);
+    return kept->is_listed = true;
 }
 
-bool pir_kept_sum_renew(pir_kept_sum *kept) {
-    for (uint32_t i = 0; i < kept->count && kept->space->status == PIR_OK; i++)
-        pir_kept_facet_renew(&kept->maker, kept->facet[i]);
-    return sort(kept, kept->count, first_before, kept->facet) && planes_differ(kept);
+bool pir_kept_sum_glue(pir_kept_sum *kept, pir_sum_boundary *boundary) {
+    pir_space *space = kept->space;
+    if (!list_by_candidates(kept))
+        return false;
+    pir_sum_boundary_begin(boundary, space);
+    for (uint32_t i = 0; i < kept->count; i++) {
+        boundary->candidates += kept->facet[i]->candidates.count;
+        boundary->survivors += kept->facet[i]->survivors;
+    }
+    if (!pir_kept_glue_make(&kept->glue, kept->facet, kept->by_candidate, kept->count, &boundary->loops,
+                            &boundary->edges))
+        return false;
+    pir_sum_boundary_end(boundary);
+    return space->status == PIR_OK;
 }
 
 void pir_kept_sum_finish(pir_kept_sum *kept) {
@@ -431,6 +441,8 @@ void pir_kept_sum_finish(pir_kept_sum *kept) {
     pir_space_shrink(space, kept->below, kept->below_room, sizeof *kept->below);
     finish_boxes(kept);
     PIR_FREE(&space->allocator, kept->found, kept->pairs.count);
+    pir_space_shrink(space, kept->by_candidate, kept->by_candidate_room, sizeof *kept->by_candidate);
+    pir_kept_glue_finish(&kept->glue);
     pir_facet_maker_finish(&kept->maker);
     pir_kept_pairs_finish(&kept->pairs);
     pir_sign_table_finish(&kept->table);

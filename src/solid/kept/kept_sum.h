@@ -14,8 +14,9 @@
 #define PIR_SOLID_KEPT_KEPT_SUM_H
 
 #include "exact/rotation.h"
-#include "solid/kept/kept_facet.h"
+#include "solid/kept/kept_glue.h"
 #include "solid/space/rest.h"
+#include "solid/sum/boundary.h"
 
 typedef struct pir_kept_sum {
     pir_space *space;
@@ -28,6 +29,9 @@ typedef struct pir_kept_sum {
     uint32_t *line[2];                 /* per edge of a body: the first on its line */
     pir_plane_facet **facet, **merged; /* merged: scratch, as is what follows */
     uint32_t count, room, merged_room;
+    bool is_listed; /* whether the facets' order by candidates is there */
+    uint32_t *by_candidate, by_candidate_room;
+    pir_kept_glue glue;
     pir_candidate_key *key;
     uint32_t key_count, key_room, *order, order_room, *work, work_room;
     uint8_t *below;
@@ -51,9 +55,9 @@ bool pir_kept_sum_update(pir_kept_sum *kept, pir_quat rotation);
 /* Takes what others have added to the space since the last call out of it. */
 void pir_kept_sum_begin(pir_kept_sum *kept);
 
-/* Makes the doubles of all edges, and lists the facets by their first candidates, in the order in which these are made
- * anew, in `order`. False where planes of two facets are one at this rotation, so that they are to be united. */
-bool pir_kept_sum_renew(pir_kept_sum *kept);
+/* Glues what bounds the sum in each plane, in the order in which candidates are made anew, to a boundary. False where
+ * planes of two facets are one at this rotation, so that they are to be united; or the space's status says why. */
+bool pir_kept_sum_glue(pir_kept_sum *kept, pir_sum_boundary *boundary);
 
 void pir_kept_sum_finish(pir_kept_sum *kept);
 

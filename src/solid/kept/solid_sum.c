@@ -102,25 +102,10 @@ static void turn(pir_solid_sum *sum, const double scale[2], bool keep) {
         pir_convexes_set_boxes(&sum->convexes[k]);
 }
 
-/* Makes the boundary of what is kept; false where planes of facets are one. */
-static bool glue(pir_solid_sum *sum) {
-    pir_kept_sum *kept = &sum->kept;
-    if (!pir_kept_sum_renew(kept))
-        return false;
-    pir_sum_boundary_begin(&sum->boundary, kept->space);
-    for (uint32_t i = 0; i < kept->count && kept->space->status == PIR_OK; i++) {
-        const pir_plane_facet *facet = kept->facet[kept->order[i]];
-        pir_sum_boundary_add(&sum->boundary, facet->half, &facet->edge);
-        sum->boundary.candidates += facet->candidates.count;
-        sum->boundary.survivors += facet->survivors;
-    }
-    pir_sum_boundary_glue(&sum->boundary);
-    return true;
-}
-
 /* Makes the boundary from the pieces, at the rotation that the space has been given. */
 static void rebuild(pir_solid_sum *sum, const double scale[2]) {
     pir_kept_sum_finish(&sum->kept);
+    pir_sum_boundary_finish(&sum->boundary);
     turn(sum, scale, false);
     pir_sum_boundary_make(&sum->boundary, sum->operands.body, sum->convexes, sum->options.open != 0);
     sum->clipped = sum->boundary.candidates;
@@ -182,7 +167,6 @@ static pir_status make(pir_solid_sum *sum, pir_quat rotation, const double scale
     sum->turned = turned;
     space->status = PIR_OK;
     space->refused = false;
-    pir_sum_boundary_finish(&sum->boundary);
     if (updates) {
         done = update(sum, rotation, scale);
         sum->clipped = done ? sum->kept.maker.made : 0;
@@ -202,9 +186,8 @@ static pir_status ensure(pir_solid_sum *sum) {
         return PIR_OK;
     if (!sum->kept.valid)
         return make(sum, sum->rotation, sum->scale, PIR_SOLID_REBUILD);
-    pir_sum_boundary_finish(&sum->boundary);
     pir_kept_sum_begin(&sum->kept);
-    if (glue(sum))
+    if (pir_kept_sum_glue(&sum->kept, &sum->boundary))
         sum->made = space->status == PIR_OK;
     else if (space->status == PIR_OK)
         rebuild(sum, sum->scale);

@@ -20,7 +20,7 @@
 /* The point that feet are measured from. */
 static const double middle[3] = {0.0137, -0.0291, 0.0219};
 
-typedef bool places_equal(pir_space *space, const uint32_t a[2], const uint32_t b[2]);
+typedef bool places_equal(pir_places *table, const uint32_t a[2], const uint32_t b[2]);
 
 void pir_places_init(pir_places *table, pir_space *space) {
     *table = (pir_places){.space = space};
@@ -32,6 +32,13 @@ void pir_places_finish(pir_places *table) {
     pir_space_shrink(table->space, table->slot, table->slot_room, sizeof *table->slot);
     pir_space_shrink(table->space, table->entry, table->room, sizeof *table->entry);
     *table = (pir_places){0};
+}
+
+void pir_places_clear(pir_places *table) {
+    for (uint32_t k = 0; k < table->slot_room; k++)
+        table->slot[k] = PIR_SPACE_NONE;
+    table->count = 0;
+    table->by_numbers = false;
 }
 
 static uint32_t slot_of(const pir_places *table, const int64_t cube[3]) {
@@ -80,10 +87,9 @@ static bool may_be_one(const pir_places_entry *a, const pir_places_entry *b) {
 }
 
 /* The entry of the slot of a cube that is equal to one, or none. */
-static uint32_t find_in(const pir_places *table, const int64_t cube[3], const pir_places_entry *entry,
-                        places_equal *equal) {
+static uint32_t find_in(pir_places *table, const int64_t cube[3], const pir_places_entry *entry, places_equal *equal) {
     for (uint32_t e = table->slot[slot_of(table, cube)]; e != PIR_SPACE_NONE; e = table->entry[e].next)
-        if (may_be_one(&table->entry[e], entry) && equal(table->space, table->entry[e].of, entry->of))
+        if (may_be_one(&table->entry[e], entry) && equal(table, table->entry[e].of, entry->of))
             return e;
     return PIR_SPACE_NONE;
 }
@@ -119,11 +125,12 @@ static bool equal_numbers(const pir_space *space, uint32_t a, uint32_t b, uint32
     return true;
 }
 
-static bool equal_points(pir_space *space, const uint32_t a[2], const uint32_t b[2]) {
+static bool equal_points(pir_places *table, const uint32_t a[2], const uint32_t b[2]) {
+    pir_space *space = table->space;
     if (a[0] == b[0] || pir_identity_of_points(space, a[0], b[0]))
         return true;
     const uint32_t i = pir_space_exact_point(space, a[0]), j = pir_space_exact_point(space, b[0]);
-    return space->status == PIR_OK && equal_numbers(space, i, j, 4);
+    return space->status == PIR_OK && equal_numbers(space, i, j, 4) && (table->by_numbers = true);
 }
 
 uint32_t pir_places_point(pir_places *table, uint32_t point) {
@@ -173,8 +180,8 @@ bool pir_planes_face_one_way(const pir_space *space, uint32_t f, uint32_t g) {
     return m[0] * n[0] + m[1] * n[1] + m[2] * n[2] > 0;
 }
 
-static bool equal_planes(pir_space *space, const uint32_t a[2], const uint32_t b[2]) {
-    return pir_planes_are_one(space, a[0] >> 1, b[0] >> 1);
+static bool equal_planes(pir_places *table, const uint32_t a[2], const uint32_t b[2]) {
+    return pir_planes_are_one(table->space, a[0] >> 1, b[0] >> 1);
 }
 
 uint32_t pir_places_half(pir_places *table, uint32_t half) {
@@ -231,7 +238,8 @@ static void exact_line(pir_space *space, mpz_t *line, const uint32_t plane[2]) {
     pir_numbers_reduce(line, 6, space->t[16]);
 }
 
-static bool equal_lines(pir_space *space, const uint32_t a[2], const uint32_t b[2]) {
+static bool equal_lines(pir_places *table, const uint32_t a[2], const uint32_t b[2]) {
+    pir_space *space = table->space;
     if (pir_identity_of_lines(space, a, b))
         return true;
     for (int k = 0; k < 2; k++) {
@@ -249,7 +257,7 @@ static bool equal_lines(pir_space *space, const uint32_t a[2], const uint32_t b[
             return false;
         turn = own != 0 ? own : turn;
     }
-    return true;
+    return table->by_numbers = true;
 }
 
 /* The foot by exact numbers: middle + u × ((m + middle × u) / |u|²), m the moment of the line about the origin. */

@@ -22,10 +22,14 @@ typedef struct pir_places {
     pir_places_entry *entry;
     uint32_t count, room;
     uint32_t *slot, slot_room; /* the entry added last of those with one hash, or none */
+    bool by_numbers;           /* whether two were one by exact numbers alone, which may end with this rotation */
 } pir_places;
 
 void pir_places_init(pir_places *table, pir_space *space);
 void pir_places_finish(pir_places *table);
+
+/* Takes all entries out. */
+void pir_places_clear(pir_places *table);
 
 /* The first point added that is equal to this one. */
 uint32_t pir_places_point(pir_places *table, uint32_t point);

@@ -172,6 +172,14 @@ void pir_space_renew_plane(pir_space *space, uint32_t plane);
 bool pir_space_look_at_point(pir_space *space, uint32_t point);
 bool pir_space_look_at_plane(pir_space *space, uint32_t plane);
 
+/* Whether the doubles of a point or a plane are, or can be made, those of this rotation; likewise. */
+static inline bool pir_space_sees_point(pir_space *space, uint32_t point) {
+    return space->point[point].frame == space->frame || pir_space_look_at_point(space, point);
+}
+static inline bool pir_space_sees_plane(pir_space *space, uint32_t plane) {
+    return space->plane[plane].frame == space->frame || pir_space_look_at_plane(space, plane);
+}
+
 /* Forgets the exact numbers of all that is in the space, and begins a frame. */
 void pir_space_begin_frame(pir_space *space);
 

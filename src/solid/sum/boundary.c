@@ -95,6 +95,7 @@ static void glue(pir_sum_boundary *b) {
         b->edges = pir_union_outline_edges(&b->outline);
     }
     pir_space_begin_stage(b->space, "tracing facets", 0);
+    pir_loops_begin(&b->loops, b->space);
     pir_loops_trace(&b->loops, &b->outline);
     if (b->space->status == PIR_OK)
         pir_loops_check_closed(&b->loops);
@@ -111,13 +112,9 @@ static void name(pir_sum_boundary *b, uint32_t point) {
 }
 
 static void name_vertices(pir_sum_boundary *b) {
-    b->number_count = b->space->point_count;
-    b->number = PIR_NEW(&b->space->allocator, uint32_t, b->number_count);
-    if (!b->number) {
-        b->space->status = PIR_ERR_MEMORY;
+    if (!pir_space_grow(b->space, (void **)&b->number, &b->number_room, b->space->point_count, sizeof *b->number))
         return;
-    }
-    for (uint32_t p = 0; p < b->number_count; p++)
+    for (uint32_t p = 0; p < b->space->point_count; p++)
         b->number[p] = PIR_SPACE_NONE;
     for (uint32_t i = 0; i < b->loops.facet_corner_count; i++)
         name(b, b->loops.facet_corner[i]);
@@ -146,19 +143,19 @@ void pir_sum_boundary_make(pir_sum_boundary *boundary, const pir_shell_body body
 }
 
 void pir_sum_boundary_begin(pir_sum_boundary *boundary, pir_space *space) {
-    *boundary = (pir_sum_boundary){.space = space};
-    pir_space_begin_stage(space, "uniting what bounds the sum", 0);
-    pir_union_outline_init(&boundary->outline, space);
+    if (!boundary->is_glued)
+        pir_sum_boundary_finish(boundary);
+    boundary->space = space;
+    boundary->is_glued = true;
+    boundary->vertex_count = boundary->edges = 0;
+    boundary->candidates = boundary->survivors = 0;
+    pir_loops_begin(&boundary->loops, space);
+    pir_space_begin_stage(space, "gluing what bounds the sum", 0);
 }
 
-void pir_sum_boundary_add(pir_sum_boundary *boundary, uint32_t half, const pir_segment_list *edge) {
-    if (edge->count > 0)
-        pir_union_outline_add(&boundary->outline, boundary->group_count++, half, edge->segment, edge->count);
-}
-
-void pir_sum_boundary_glue(pir_sum_boundary *boundary) {
+void pir_sum_boundary_end(pir_sum_boundary *boundary) {
     if (boundary->space->status == PIR_OK)
-        glue(boundary);
+        pir_loops_check_closed(&boundary->loops);
     if (boundary->space->status == PIR_OK)
         name_vertices(boundary);
 }
@@ -169,7 +166,7 @@ void pir_sum_boundary_finish(pir_sum_boundary *boundary) {
         return;
     PIR_FREE(&b->space->allocator, b->order, b->order_count);
     PIR_FREE(&b->space->allocator, b->work, b->order_count);
-    PIR_FREE(&b->space->allocator, b->number, b->number_count);
+    pir_space_shrink(b->space, b->number, b->number_room, sizeof *b->number);
     pir_space_shrink(b->space, b->vertex, b->vertex_room, sizeof *b->vertex);
     pir_loop_list_finish(&b->loops);
     pir_union_outline_finish(&b->outline);
