@@ -485,7 +485,7 @@ static bool prepare(pir_kept_glue *glue, pir_plane_facet *const *facet, uint32_t
     glue->kept = glue->traced = 0;
     find_points(glue, facet, count);
     if (room && !place_vertices(glue) && space->status == PIR_OK) {
-        // vertices that have met are one at this rotation
+        // numbers say that two vertices are one, at this rotation
         forget(facet, count);
         find_points(glue, facet, count);
         glue->fleeting = true;

@@ -4,9 +4,9 @@
  * vertices of others within these, the loops. From one rotation to the next only what has changed is made anew, and
  * doubles look at the rest again.
  *
- * Points that are one, or in a plane, by what they are of (identity.h), are so at every rotation. All else is looked at:
- * that vertices are apart, that ends stand along their lines as they did, that a vertex near an edge is off
- * it. Where doubles do not tell, exact numbers do.
+ * Points that are one, or in a plane, by what they are of (identity.h), are so at every rotation. All else is looked
+ * at: that vertices are apart, that ends stand along their lines as they did, that a vertex near an edge is off it.
+ * Where doubles do not tell, exact numbers do.
  *
  * Invariants after a call that succeeds, unless it is `fleeting`:
  * - The outline of each facet that bounds the sum is made. It is of the facet's edges, until the facet is clipped anew.
