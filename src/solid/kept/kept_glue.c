@@ -407,7 +407,7 @@ static double rank_of(const pir_kept_glue *glue, uint32_t v) {
     return 61 * x[0] + 53 * x[1] + 41 * x[2];
 }
 
-/* What two ranks are apart at least where they are sure. */
+/* The doubt about a rank: two that differ by more than both doubts are sure. */
 static double doubt_of(const pir_kept_glue *glue, uint32_t v) {
     return 156 * glue->space->point[glue->point[v]].err + 0x1p-42;
 }
