@@ -6,6 +6,8 @@
  */
 #include "solid/sum/subtract.h"
 
+#include <math.h>
+
 #include "solid/space/record.h"
 
 void pir_fragments_finish(pir_fragments *fragments, pir_space *space) {
@@ -77,6 +79,22 @@ static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, cons
     return MEETS;
 }
 
+/* Puts the half-space first that cuts most off a fragment, as its middle has it: the fewer parts are there in the end.
+ * */
+static void choose_cutter(const pir_polygons *polygons, uint32_t fragment, uint32_t *cutter, uint32_t count) {
+    const pir_ball ball = pir_polygons_ball(polygons, fragment);
+    double least = (double)INFINITY;
+    uint32_t best = 0;
+    for (uint32_t h = 0; h < count; h++) {
+        const double depth = pir_ball_depth(&ball, &polygons->space->plane[cutter[h] >> 1]) * (cutter[h] & 1 ? -1 : 1);
+        best = depth < least ? h : best;
+        least = depth < least ? depth : least;
+    }
+    const uint32_t first = cutter[best];
+    cutter[best] = cutter[0];
+    cutter[0] = first;
+}
+
 static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *polygons, const uint32_t *half,
                          uint32_t count, pir_fragments *covered, uint32_t *apart) {
     pir_space *space = polygons->space;
@@ -90,6 +108,7 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
         pir_record_met(polygons, rest, space->record->set);
     const uint32_t before = fragments->count, polygon_count = polygons->count;
     for (uint32_t h = 0; h < cutters && space->status == PIR_OK; h++) {
+        choose_cutter(polygons, rest, fragments->spare + h, cutters - h);
         const unsigned sides = pir_polygons_sides(polygons, rest, fragments->spare[h]);
         if (sides == 2) {
             // the set is beside what is left: the fragment was not met at all
