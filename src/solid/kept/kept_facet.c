@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/fetching.h"
 #include "solid/space/identity.h"
 #include "solid/space/places.h"
 #include "solid/space/rest.h"
@@ -11,6 +12,9 @@
 
 /* Far planes are sorted out once in so many steps. */
 #define HORIZON_STEPS 8
+
+/* How many planes ahead the next one is fetched. */
+#define AHEAD 12
 
 void pir_facet_maker_finish(pir_facet_maker *maker) {
     pir_space *space = maker->space;
@@ -170,9 +174,10 @@ static double distance_of_all(pir_facet_maker *maker, const pir_plane_facet *fac
 /* --- pairs that are apart --- */
 
 static void renew_pair(pir_facet_maker *maker, uint32_t pair) {
-    const pir_kept_pair_sum *sum = &maker->pairs->pair[pair];
-    for (uint32_t k = 0; k < sum->count; k++)
+    pir_kept_pair_sum *sum = &maker->pairs->pair[pair];
+    for (uint32_t k = 0; k < sum->count && sum->renewed != maker->space->frame; k++)
         pir_space_renew_plane(maker->space, sum->plane[k]);
+    sum->renewed = maker->space->frame;
 }
 
 /* How far two boxes are apart. */
@@ -407,6 +412,12 @@ static void sort_far(const pir_facet_maker *maker, pir_plane_facet *facet) {
             swap_far(facet, i, facet->far_soon++);
 }
 
+/* Fetches the plane of far[i] where it will be looked at: planes of one facet are far apart in memory. */
+PIR_FETCHING void fetch_ahead(const pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t i) {
+    if (i < facet->far_count && facet->far_until[i] <= maker->turn)
+        PIR_FETCH(&maker->space->plane[facet->far[i].plane].frame);
+}
+
 /* Looks at the far planes that may be wrong, and at all that are dropped where pairs have changed. */
 static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet, bool changed) {
     const double turn = maker->turn;
@@ -414,6 +425,7 @@ static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet, bool c
         sort_far(maker, facet);
     for (uint32_t i = 0; i < (changed ? facet->far_count : facet->far_soon) && maker->space->status == PIR_OK;) {
         const pir_far_plane far = facet->far[i];
+        fetch_ahead(maker, facet, i + AHEAD);
         const bool dropped = changed && pir_plane_is_dropped(maker->pairs, far.plane);
         if (!dropped && (facet->far_until[i] > turn || look_again(maker, facet, i))) {
             i++;

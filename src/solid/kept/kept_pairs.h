@@ -25,6 +25,7 @@ typedef struct pir_kept_pair_sum {
     uint32_t *plane;
     uint32_t count, room, plane_room;
     uint32_t changed;              /* the frame in which planes came or went */
+    uint32_t renewed;              /* the frame in which all planes had their doubles made */
     uint32_t first_new, new_count; /* of that frame, in `added` */
 } pir_kept_pair_sum;
 

@@ -391,11 +391,8 @@ static void renew_points_of(pir_space *space, const pir_space_plane *f) {
             pir_space_renew_point(space, f->point[k]);
 }
 
-void pir_space_renew_plane(pir_space *space, uint32_t plane) {
-    pir_space_plane *f = &space->plane[plane];
-    if (f->frame == space->frame)
-        return;
-    renew_points_of(space, f);
+void pir_space_place_plane(pir_space *space, uint32_t plane) {
+    renew_points_of(space, &space->plane[plane]);
     if (!set_plane(space, plane))
         pir_space_exact_plane(space, plane);
 }

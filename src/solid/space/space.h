@@ -165,7 +165,11 @@ uint32_t pir_space_add_plane(pir_space *space, const uint32_t direction[2], bool
 
 /* Makes the doubles of a point or a plane of an earlier frame anew, and of what it is made of. */
 void pir_space_renew_point(pir_space *space, uint32_t point);
-void pir_space_renew_plane(pir_space *space, uint32_t plane);
+void pir_space_place_plane(pir_space *space, uint32_t plane);
+static inline void pir_space_renew_plane(pir_space *space, uint32_t plane) {
+    if (space->plane[plane].frame != space->frame)
+        pir_space_place_plane(space, plane);
+}
 
 /* Likewise by doubles alone, of what need not be there at this rotation: planes that have come to be parallel, or meet
  * far away. False where doubles do not do, or it is not there. */
