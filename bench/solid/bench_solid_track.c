@@ -4,7 +4,8 @@
  * 50 frames.
  *
  * solid_track.csv has a line for each pair and step: the median time of an update, of an update with facets glued
- * together, of a rebuild, which glues them; and which part of all planes of candidates the updates clipped.
+ * together, of a rebuild, which glues them; which part of all planes of candidates the updates clipped; and the kB that
+ * are kept from one to the next, a candidate, GMP's own apart.
  *
  *     bench_solid_track FOLDER
  */
@@ -37,6 +38,17 @@ static double now_ms(void) {
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
+/* Counts the bytes in use. */
+static void *resize_counted(void *context, void *block, size_t old_size, size_t new_size) {
+    size_t *bytes = context;
+    void *made = new_size > 0 ? realloc(block, new_size) : NULL;
+    if (new_size == 0)
+        free(block);
+    if (made || new_size == 0)
+        *bytes += new_size - old_size;
+    return made;
+}
+
 static int by_size(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -64,7 +76,12 @@ static void run(FILE *csv, const struct pair *pair, uint32_t steps) {
     pir_solid_sum *kept, *fresh;
     pir_solid_sum_info info = {0};
     uint64_t clipped = 0, planes = 0;
-    check(pir_solid_sum_create(p, q, rotation, NULL, &kept));
+    size_t bytes = 0;
+    const pir_allocator counted = {resize_counted, &bytes};
+    pir_solid_sum_options options = pir_solid_sum_options_default();
+    options.allocator = &counted;
+    check(pir_solid_sum_create(p, q, rotation, &options, &kept));
+    const size_t bytes_at_rest = bytes;
     check(pir_solid_sum_create(p, q, rotation, NULL, &fresh));
     check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
     for (uint32_t i = 0; i < frames; i++) {
@@ -82,9 +99,10 @@ static void run(FILE *csv, const struct pair *pair, uint32_t steps) {
         planes += info.candidates;
     }
     char line[256];
-    snprintf(line, sizeof line, "%s,%u,%u,%llu,%u,%.3f,%.3f,%.3f,%.3g", pair->name, steps, frames,
+    snprintf(line, sizeof line, "%s,%u,%u,%llu,%u,%.3f,%.3f,%.3f,%.3g,%.3g", pair->name, steps, frames,
              (unsigned long long)info.candidates, info.facets, median(update, frames), median(glued, frames),
-             median(rebuild, frames), (double)clipped / (double)planes);
+             median(rebuild, frames), (double)clipped / (double)planes,
+             (double)(bytes - bytes_at_rest) * 1e-3 / (double)info.candidates);
     fprintf(csv, "%s\n", line);
     printf("%s\n", line);
     pir_solid_sum_destroy(kept);
@@ -105,7 +123,7 @@ int main(int argc, char **argv) {
     }
     const struct results where = results_new(argv[1]);
     FILE *csv = results_open(&where, "solid_track.csv");
-    fprintf(csv, "sum,steps,frames,candidates,facets,update_ms,update_glued_ms,rebuild_ms,clipped\n");
+    fprintf(csv, "sum,steps,frames,candidates,facets,update_ms,update_glued_ms,rebuild_ms,clipped,kept_kb\n");
     printf("%s\n", where.machine);
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
         for (uint32_t steps = 50; steps <= 5000; steps *= 10)

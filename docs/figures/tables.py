@@ -382,8 +382,10 @@ def solid_track(r):
     for row in r.solid_track.rows:
         rebuild, *kept = (float(row[f"{what}_ms"]) for what in ("rebuild", "update", "update_glued"))
         rows.append([row["sum"], count(row["steps"]), two(rebuild),
-                     *(f"{two(ms)} ({rebuild / ms:.1f}×)" for ms in kept), f"{two(100 * float(row['clipped']))} %"])
-    return markdown(["sum", ">steps a turn", ">rebuild, ms", ">update, ms", ">update and gluing, ms", ">clipped"], rows)
+                     *(f"{two(ms)} ({rebuild / ms:.1f}×)" for ms in kept), f"{two(100 * float(row['clipped']))} %",
+                     two(float(row["kept_kb"]))])
+    return markdown(["sum", ">steps a turn", ">rebuild, ms", ">update, ms", ">update and gluing, ms", ">clipped",
+                     ">kept, kB a candidate"], rows)
 
 
 TABLES = {function.__name__: function for function in (

@@ -158,6 +158,7 @@ static pir_status check_tetrahedron(uint32_t missing, bool turned) {
                            .facet_corner_count = 12 - 3 * missing};
     pir_loops_check_closed(&loops);
     const pir_status status = space.status;
+    pir_space_shrink(&space, loops.seat, loops.seat_room, sizeof *loops.seat);
     pir_space_finish(&space);
     return status;
 }
