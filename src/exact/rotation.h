@@ -155,17 +155,22 @@ static inline double pir_rotation_chord_square(pir_quat a, pir_quat b) {
 }
 
 /*
- * An upper bound on the angle between two rotations in radians, given by quaternions that are near their `unit`
- * ones; `error` is by how much, both together.
+ * An upper bound on the angle between two rotations in radians, whose unit quaternions are `chord` apart at most, up
+ * to sign, but for rounding.
  */
-static inline double pir_rotation_angle_bound_within(pir_quat a, pir_quat b, double error) {
+static inline double pir_rotation_angle_of_chord(double chord) {
     /*
      * Unit quaternions at distance 2y ≤ √2 (up to sign) turn by θ = 4 asin(y). (asin(y) − y)/y³ rises with y,
      * and is below 0.2215 at y = √2/2. So θ ≤ 4 (y + 0.2215 y³), which is above π from there on. The chord is
      * off by 5u, relatively; 1 + 2^-48 on the result holds that.
      */
-    double half = 0.5 * (sqrt(pir_rotation_chord_square(a, b)) + error);
+    double half = 0.5 * chord;
     return 4 * (half + 0.2215 * (half * half * half)) * (1 + 0x1p-48);
+}
+
+/* That bound for quaternions that are near their `unit` ones; `error` is by how much, both together. */
+static inline double pir_rotation_angle_bound_within(pir_quat a, pir_quat b, double error) {
+    return pir_rotation_angle_of_chord(sqrt(pir_rotation_chord_square(a, b)) + error);
 }
 
 /* The bound for `unit` quaternions; tight to a few parts in 10^15 for small turns. */

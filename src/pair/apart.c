@@ -60,17 +60,15 @@ bool pir_pair_is_outside(pir_task *task, double *ret_distance) {
 /* Keeps n, which is `back` in the frame of P, as the direction to try, and the distance along it as a proof. */
 static inline void keep(pir_task *task, pir_vec3 n, pir_vec3 back, double distance) {
     const pir_workspace *workspace = pir_pair_task_of(task)->workspace;
+    const double down = task->frame->down;
     pir_pair *pair = pir_pair_task_of(task)->pair;
-    pir_pair_proof *proof = &pair->proof;
     pair->axis = n;
     pair->axis_of_p = back;
     pair->has_axis = true;
     // `down` is 0 where units are no normal numbers
-    proof->leeway = task->frame->down > 0 ? distance : 0;
-    proof->down = task->frame->down;
-    proof->along = workspace->is_turned ? pir_mat_apply(&workspace->rotation_q.r, n) : n;
-    proof->p = workspace->pose[0];
-    proof->q = workspace->pose[1];
+    pir_pair_proof_set(&pair->proof, down > 0 ? distance : 0, down,
+                       workspace->is_turned ? pir_mat_apply(&workspace->rotation_q.r, n) : n, &workspace->pose[0],
+                       &workspace->pose[1]);
 }
 
 void pir_pair_keep_apart(pir_task *task, pir_vec3 n, double distance) {
@@ -162,14 +160,9 @@ static inline double apart_along(const struct standing *at, const struct view *v
 /* Keeps a direction and the distance along it, as `keep` does. */
 static void keep_view(const struct standing *at, const struct view *view, const pir_pair_input *input,
                       double distance) {
-    pir_pair_proof *proof = &at->pair->proof;
     at->pair->axis = view->q;
     at->pair->axis_of_p = view->p;
-    proof->leeway = distance;
-    proof->down = at->pair->down;
-    proof->along = view->world;
-    proof->p = input->pose_p;
-    proof->q = input->pose_q;
+    pir_pair_proof_set(&at->pair->proof, distance, at->pair->down, view->world, &input->pose_p, &input->pose_q);
 }
 
 /* A climb tells no support of bodies without a slip. */
@@ -225,10 +218,8 @@ static inline bool set_standing(pir_pair *pair, const pir_walker *walker, const 
                                 struct standing *at) {
     const pir_kept_body *p = pair->body_p, *q = pair->body_q;
     const pir_pose *at_p = &input->pose_p, *at_q = &input->pose_q;
-    const double down = pair->down, far = p->body.far + q->body.far;
-    const double reach = p->body.size + q->body.size + far +
-                         (pir_vec_taxicab(at_p->translation) + pir_vec_taxicab(at_q->translation)) * down;
-    if (!(reach < PIR_PROOF_FARTHEST) || !pir_quat_is_plain(at_p->rotation) || !pir_quat_is_plain(at_q->rotation))
+    const double down = pair->down, reach = pir_pair_reach(&p->body, &q->body, at_p, at_q, down);
+    if (!pir_poses_are_plain(reach, at_p, at_q))
         return false;
     at->pair = pair;
     at->walker = walker;
@@ -239,7 +230,7 @@ static inline bool set_standing(pir_pair *pair, const pir_walker *walker, const 
     at->way = pir_vec_scale(pir_vec_sub(at_p->translation, at_q->translation), down);
     at->least = least * down * (1 + 0x1p-40);
     at->error = PIR_PROOF_ERROR * reach + (p->slip > 0 ? missed(p) : 0) + (q->slip > 0 ? missed(q) : 0);
-    at->has_far = far > 0;
+    at->has_far = p->body.far + q->body.far > 0;
     return true;
 }
 

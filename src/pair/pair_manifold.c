@@ -31,16 +31,19 @@ static void to_world(const pir_workspace *workspace, const pir_query_result *ans
 
 /*
  * Begins a call that may follow one on this pair in this workspace: at the same poses it uses what that one
- * made. Bodies that stay apart need no frame.
+ * made. Where no contact is asked for, poses that are valid need no frame.
  */
 static pir_status resume(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input, bool needs_frame) {
     if (!pair || !workspace || !input)
         return PIR_ERR_ARGUMENT;
-    if (!needs_frame && pir_pair_stays_apart(pair, input, 0))
-        return PIR_OK;
+    const pir_pose *at_p = &input->pose_p, *at_q = &input->pose_q;
+    if (!needs_frame && pair->down > 0 &&
+        pir_poses_are_plain(pir_pair_reach(&pair->body_p->body, &pair->body_q->body, at_p, at_q, pair->down), at_p,
+                            at_q))
+        return pir_pair_check(input);
     // bits may differ where numbers do not: then it begins anew
-    if (!pir_pair_is_at(pair, workspace) || !pir_pose_is_same(&input->pose_p, &workspace->pose[0]) ||
-        !pir_pose_is_same(&input->pose_q, &workspace->pose[1]))
+    if (!pir_pair_is_at(pair, workspace) || !pir_pose_is_same(at_p, &workspace->pose[0]) ||
+        !pir_pose_is_same(at_q, &workspace->pose[1]))
         return pir_pair_begin(pair, workspace, input);
     return pir_pair_check(input);
 }

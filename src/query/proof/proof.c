@@ -9,7 +9,7 @@
 #define BESIDE_UNIT 0x1p-18
 
 /* The square of the distance of two quaternions; of those that are each other's opposite it is far too great. */
-static double square_chord(pir_quat a, pir_quat b) {
+static inline double square_chord(pir_quat a, pir_quat b) {
     double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z, w = a.w - b.w;
     return x * x + y * y + z * z + w * w;
 }
@@ -22,18 +22,13 @@ static double gone_along(const pir_pair_proof *proof, const pir_pose *from, cons
 }
 
 /* Whether a body's support has changed by less than *leeway as it turned; sets that to what is left of it. */
-static bool leaves_some(const pir_body *body, const pir_pose *from, const pir_pose *to, double *leeway) {
-    const double swing = body->swing + body->far;
+static inline bool leaves_some(const pir_body *body, const pir_pose *from, const pir_pose *to, double *leeway) {
+    const double swing = body->swing + body->far, square = square_chord(from->rotation, to->rotation);
     // the chord rejects most turns that are too great
-    if (!(*leeway > 0 && 4 * square_chord(from->rotation, to->rotation) * swing * swing < *leeway * *leeway))
+    if (!(*leeway > 0 && 4 * square * swing * swing < *leeway * *leeway))
         return false;
-    *leeway -= pir_rotation_angle_bound_within(from->rotation, to->rotation, BESIDE_UNIT) * swing * (1 + 0x1p-40);
+    *leeway -= pir_rotation_angle_of_chord(sqrt(square) + BESIDE_UNIT) * swing * (1 + 0x1p-40);
     return *leeway > 0;
-}
-
-/* Whether a body that was accepted at one pose is at another, whose rotation a relative rotation can be made of. */
-static bool is_plain_turn(const pir_pose *from, const pir_pose *to) {
-    return pir_quat_is_near_unit(from->rotation) && pir_quat_is_plain(to->rotation);
 }
 
 bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const pir_body *q, const pir_pose *at_p,
@@ -41,14 +36,12 @@ bool pir_pair_proof_holds(const pir_pair_proof *proof, const pir_body *p, const 
     if (!(proof->leeway > 0))
         return false;
     const bool q_stands = pir_pose_is_same(at_q, &proof->q);
-    const double far =
-        (pir_vec_taxicab(at_p->translation) + pir_vec_taxicab(at_q->translation)) * proof->down + p->far + q->far;
-    const double reach = p->size + q->size + far;
+    const double reach = pir_pair_reach(p, q, at_p, at_q, proof->down);
     double way = reach, leeway = proof->leeway - least * proof->down * (1 + 0x1p-40);
     leeway += gone_along(proof, &proof->p, at_p, &way);
     if (!q_stands)
         leeway -= gone_along(proof, &proof->q, at_q, &way);
     leeway -= PIR_PROOF_ERROR * way;
-    return reach < PIR_PROOF_FARTHEST && leaves_some(p, &proof->p, at_p, &leeway) && is_plain_turn(&proof->p, at_p) &&
-           (q_stands || (leaves_some(q, &proof->q, at_q, &leeway) && is_plain_turn(&proof->q, at_q)));
+    return leaves_some(p, &proof->p, at_p, &leeway) && (q_stands || leaves_some(q, &proof->q, at_q, &leeway)) &&
+           pir_poses_are_plain(reach, at_p, at_q);
 }

@@ -20,7 +20,7 @@ typedef struct pir_pair_proof {
     double leeway;  /* the distance along `along` at the poses, in units of the frame, less its error; 0 for no proof */
     double down;    /* units of the frame in one of the world */
     pir_vec3 along; /* unit, in the world, from Q to P */
-    pir_pose p, q;
+    pir_pose p, q;  /* their quaternions are near unit */
 } pir_pair_proof;
 
 /* The bits in which two numbers differ. */
@@ -55,12 +55,35 @@ static inline bool pir_quat_is_near_unit(pir_quat q) {
 
 /* Whether a component is no 0 and may be too small for a relative rotation. */
 static inline bool pir_is_tiny(double c) {
-    return (c != 0) & (fabs(c) < 0x1p-800);
+    return (fabs(c) < 0x1p-800) & (c != 0);
 }
 
 /* Whether a rotation, and a relative one, can be made of it as it is. */
 static inline bool pir_quat_is_plain(pir_quat q) {
     return pir_quat_is_near_unit(q) && !(pir_is_tiny(q.x) || pir_is_tiny(q.y) || pir_is_tiny(q.z) || pir_is_tiny(q.w));
+}
+
+/* A bound on all lengths that a distance of the bodies is computed from, in units of the frame; `down` as above. */
+static inline double pir_pair_reach(const pir_body *p, const pir_body *q, const pir_pose *at_p, const pir_pose *at_q,
+                                    double down) {
+    return p->size + q->size + p->far + q->far +
+           (pir_vec_taxicab(at_p->translation) + pir_vec_taxicab(at_q->translation)) * down;
+}
+
+/* Whether doubles tell about bodies of a reach at two poses, which then are valid ones. */
+static inline bool pir_poses_are_plain(double reach, const pir_pose *at_p, const pir_pose *at_q) {
+    return reach < PIR_PROOF_FARTHEST && pir_quat_is_plain(at_p->rotation) && pir_quat_is_plain(at_q->rotation);
+}
+
+/* Keeps that the bodies are apart by `leeway` along a unit vector; no proof where a quaternion is not near unit. */
+static inline void pir_pair_proof_set(pir_pair_proof *proof, double leeway, double down, pir_vec3 along,
+                                      const pir_pose *p, const pir_pose *q) {
+    const bool is_near = pir_quat_is_near_unit(p->rotation) && pir_quat_is_near_unit(q->rotation);
+    proof->leeway = is_near ? leeway : 0;
+    proof->down = down;
+    proof->along = along;
+    proof->p = *p;
+    proof->q = *q;
 }
 
 /*
