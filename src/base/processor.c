@@ -2,8 +2,11 @@
 /* The tables of loops: see processor.h. */
 #include "base/processor.h"
 
+#include <stdbool.h>
+
 /* The loops of one version, which their rooms define. */
 #define DECLARE(version)                                                                                               \
+    extern const struct pir_relative_version pir_relative_##version;                                                   \
     extern const struct pir_scan pir_scan_##version;                                                                   \
     extern const struct pir_walker pir_walker_##version;                                                               \
     extern const struct pir_single_version pir_single_##version;                                                       \
@@ -23,8 +26,8 @@ extern const struct pir_kernels pir_kernels_neon;
 /* A table of one version of all loops but the kernels. */
 #define TABLE(name, kernels, version)                                                                                  \
     {                                                                                                                  \
-        name, kernels, &pir_scan_##version, &pir_walker_##version, &pir_single_##version, &pir_surface_##version,      \
-            &pir_axes_##version, &pir_turned_box_##version                                                             \
+        name, &pir_relative_##version, kernels, &pir_scan_##version, &pir_walker_##version, &pir_single_##version,     \
+            &pir_surface_##version, &pir_axes_##version, &pir_turned_box_##version                                     \
     }
 
 const pir_processor *pir_processor_version(unsigned index) {
@@ -34,9 +37,11 @@ const pir_processor *pir_processor_version(unsigned index) {
 #if defined(__x86_64__)
     static const pir_processor avx2 = TABLE("AVX2", &pir_kernels_avx2, avx2),
                                avx512 = TABLE("AVX-512", &pir_kernels_avx512, avx2);
-    if (__builtin_cpu_supports("avx2"))
+    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (has_avx2)
         found[count++] = &avx2;
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    if (has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
         found[count++] = &avx512;
 #elif defined(__aarch64__)
     static const pir_processor neon = TABLE("NEON", &pir_kernels_neon, plain);

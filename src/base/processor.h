@@ -11,6 +11,7 @@
 
 typedef struct pir_processor {
     const char *name;
+    const struct pir_relative_version *relative;   /* exact/relative_turn.h */
     const struct pir_kernels *kernels;             /* dymsum/kernels/kernels.h */
     const struct pir_scan *scan;                   /* query/depth/scan.h */
     const struct pir_walker *walker;               /* query/walk/walker.h */

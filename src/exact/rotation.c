@@ -26,11 +26,18 @@ static int top_exponent(const double c[4]) {
     return top;
 }
 
+/* Sets a rotation, the doubles to those of `near`. */
+static void set_doubles(pir_rotation *rotation, pir_quat given, pir_quat near) {
+    const pir_rotation_doubles doubles = pir_doubles_of(near);
+    pir_rotation_set_given(rotation, given);
+    rotation->unit = doubles.unit;
+    rotation->r = doubles.r;
+}
+
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
     const pir_quat q = pir_quat_signed(given);
     if (pir_quat_is_near_one(q)) {
-        const pir_rotation_doubles doubles = pir_doubles_of(q);
-        pir_rotation_set_doubles(rotation, given, &doubles);
+        set_doubles(rotation, given, q);
         return PIR_OK;
     }
     const double c[4] = {q.x, q.y, q.z, q.w};
@@ -40,9 +47,7 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
     if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
         return PIR_ERR_ZERO_QUATERNION;
     int top = top_exponent(c);
-    const pir_rotation_doubles doubles =
-        pir_doubles_of((pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
-    pir_rotation_set_doubles(rotation, given, &doubles);
+    set_doubles(rotation, given, (pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
     return PIR_OK;
 }
 

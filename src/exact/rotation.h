@@ -99,20 +99,10 @@ static inline pir_rotation_doubles pir_doubles_as_given(pir_quat c) {
     return pir_doubles_at(c, n, fabs(n - 1) <= 0x1p-50 ? 1 : 1 / sqrt(n));
 }
 
-/* Sets a rotation to the quaternion `given`; the doubles are those of it with its sign. */
-static inline void pir_rotation_set_doubles(pir_rotation *rotation, pir_quat given,
-                                            const pir_rotation_doubles *doubles) {
-    rotation->given = given;
-    rotation->rest = (pir_quat){0, 0, 0, 0};
-    rotation->relative = false;
-    rotation->unit = doubles->unit;
-    rotation->r = doubles->r;
-    rotation->has_exact = false;
-}
-
-/* Sets a rotation whose doubles are kept elsewhere: only integers may be asked for. */
+/* Sets a rotation whose doubles are there, or kept elsewhere: then only integers may be asked for. */
 static inline void pir_rotation_set_given(pir_rotation *rotation, pir_quat given) {
     rotation->given = given;
+    rotation->rest = (pir_quat){0, 0, 0, 0};
     rotation->relative = false;
     rotation->has_exact = false;
 }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The beginning and the end of a call on a pair: the relative pose, and the way back to the world. */
-#include "exact/quat_product.h"
 #include "pair/pair.h"
 
 pir_pair_input pir_pair_input_default(void) {
@@ -21,15 +20,14 @@ __attribute__((noinline)) static void set_bodies(const pir_pair *pair, pir_works
 /* Sets Q's place. */
 __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, const pir_pose *q) {
     workspace->has_q = false;
-    const pir_quat given = pir_quat_signed(q->rotation);
-    if (pir_quat_is_near_one(given)) {
-        const pir_rotation_doubles doubles = pir_doubles_as_given(given);
-        pir_rotation_set_doubles(&workspace->rotation_q, q->rotation, &doubles);
-    } else {
-        pir_status status = pir_rotation_set(&workspace->rotation_q, q->rotation);
-        if (status != PIR_OK)
-            return status;
-    }
+    pir_rotation *rotation = &workspace->rotation_q;
+    pir_status status = PIR_OK;
+    if (workspace->relative->turn(&q->rotation, &rotation->unit, &rotation->r))
+        pir_rotation_set_given(rotation, q->rotation);
+    else
+        status = pir_rotation_set(rotation, q->rotation);
+    if (status != PIR_OK)
+        return status;
     workspace->world.translation_q = q->translation;
     workspace->posed = !pir_world_is_plain(&workspace->world);
     workspace->is_turned = !pir_quat_is_identity(q->rotation);
@@ -40,20 +38,19 @@ __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, cons
 }
 
 /* Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled. */
-static inline bool set_relative_rotation(pir_workspace *workspace, pir_quat q, pir_quat p) {
-    if (!pir_quat_is_fit(q) || !pir_quat_is_fit(p))
+static inline bool set_relative_rotation(pir_workspace *workspace, const pir_quat *q, const pir_quat *p) {
+    pir_frame *frame = &workspace->frame;
+    pir_quat_product product;
+    if (!workspace->relative->find(q, p, &product, &frame->unit, &frame->r))
         return false;
-    const pir_quat_product product = pir_quat_conjugate_times(q, p);
-    // no shorter than 1/4
-    const pir_rotation_doubles doubles = pir_doubles_as_given(pir_quat_signed(product.whole));
-    pir_rotation_set_factors(&workspace->rotation, &product, q, p);
-    pir_frame_set_doubles(&workspace->frame, product.whole, product.rest, &doubles);
+    pir_rotation_set_factors(&workspace->rotation, &product, *q, *p);
+    pir_frame_set_given(frame, product.whole, product.rest);
     return true;
 }
 
 /* Sets P's rotation as Q sees it, where Q is turned or P's quaternion has to be scaled. */
 __attribute__((noinline)) static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
-    if (workspace->is_turned && set_relative_rotation(workspace, input->pose_q.rotation, input->pose_p.rotation))
+    if (workspace->is_turned && set_relative_rotation(workspace, &input->pose_q.rotation, &input->pose_p.rotation))
         return PIR_OK;
     pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
     workspace->frame.is_set = false;
@@ -66,12 +63,16 @@ __attribute__((noinline)) static pir_status set_any_rotation(pir_workspace *work
 
 /* P's rotation as Q sees it. */
 static inline pir_status set_rotation(pir_workspace *workspace, const pir_pair_input *input) {
+    if (workspace->is_turned)
+        return set_any_rotation(workspace, input);
     const pir_quat given = pir_quat_signed(input->pose_p.rotation);
-    if (workspace->is_turned || !pir_quat_is_near_one(given))
+    if (!pir_quat_is_near_one(given))
         return set_any_rotation(workspace, input);
     const pir_rotation_doubles doubles = pir_doubles_as_given(given);
+    workspace->frame.unit = doubles.unit;
+    workspace->frame.r = doubles.r;
     pir_rotation_set_given(&workspace->rotation, given);
-    pir_frame_set_doubles(&workspace->frame, given, (pir_quat){0, 0, 0, 0}, &doubles);
+    pir_frame_set_given(&workspace->frame, given, (pir_quat){0, 0, 0, 0});
     return PIR_OK;
 }
 

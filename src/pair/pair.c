@@ -30,6 +30,7 @@ pir_status pir_workspace_create(const pir_allocator *allocator, pir_workspace **
     workspace->room.loops = pir_processor_best()->surface;
     workspace->axes = pir_processor_best()->axes;
     workspace->walker = pir_processor_best()->walker;
+    workspace->relative = pir_processor_best()->relative;
     *ret_workspace = workspace;
     return PIR_OK;
 }

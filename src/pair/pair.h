@@ -13,6 +13,7 @@
 #include <pirouette/pair.h>
 
 #include "base/scratch.h"
+#include "exact/relative_turn.h"
 #include "pair/axes/axes.h"
 #include "pair/surface/inner_surface.h"
 #include "query/answer/ladder.h"
@@ -60,6 +61,7 @@ struct pir_workspace {
     pir_surface_room room;
     const pir_axes_loops *axes;
     const pir_walker *walker;
+    const pir_relative_version *relative;
     pir_surface spare; /* where a pair has none */
     pir_patch_room patches;
 

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "exact/rotation.h"
+#include "base/processor.h"
+#include "exact/relative_turn.h"
 #include "oracle/points.h"
 #include "support/bodies.h"
 #include "support/integers.h"
@@ -121,6 +122,103 @@ static void integer_matrix_of_a_relative_rotation_is_that_of_the_product(void **
         oracle_quat_clear(of_b);
         oracle_quat_clear(of_a);
     }
+}
+
+/* A component at which versions could differ: 0, tiny, 1 but for rounding, any. */
+static double component_of_case(test_random *random) {
+    switch (test_random_below(random, 8)) {
+    case 0:
+        return test_random_below(random, 2) ? 0.0 : -0.0;
+    case 1:
+        return test_random_scaled(random, -402, -398);
+    case 2:
+        return test_random_scaled(random, -60, 0);
+    default:
+        return test_random_unit(random);
+    }
+}
+
+/* A quaternion of such components, mostly of length 1. */
+static pir_quat relative_of_case(test_random *random) {
+    const pir_quat q = {component_of_case(random), component_of_case(random), component_of_case(random),
+                        component_of_case(random)};
+    const double length = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    const double by = length > 0x1p-100 && test_random_below(random, 8) ? 1 / length : 1;
+    return (pir_quat){q.x * by, q.y * by, q.z * by, q.w * by};
+}
+
+/* Whether whole + rest is the product but for 2^-100, and whole but for its last bit. */
+static bool is_near_product(pir_quat a, pir_quat b, const pir_quat_product *product) {
+    const double whole[4] = {product->whole.x, product->whole.y, product->whole.z, product->whole.w};
+    const double rest[4] = {product->rest.x, product->rest.y, product->rest.z, product->rest.w};
+    const double given[2][4] = {{a.x, a.y, a.z, a.w}, {b.x, b.y, b.z, b.w}};
+    bool is_near = true;
+    oracle_quat scaled[2], exact;
+    for (int f = 0; f < 2; f++) {
+        oracle_quat_init(scaled[f], f ? b : a);
+        for (int k = 0; k < 4; k++) {
+            mpq_t at;
+            mpq_init(at);
+            mpq_set_d(at, given[f][k]);
+            mpq_mul_2exp(at, at, 1100);
+            mpz_set_q(scaled[f][k], at);
+            mpq_clear(at);
+        }
+    }
+    oracle_quat_init(exact, a);
+    exact_product(scaled[0], scaled[1], exact);
+    for (int k = 0; k < 4; k++) {
+        mpq_t off, part;
+        mpq_inits(off, part, NULL);
+        mpq_set_z(off, exact[k]);
+        mpq_div_2exp(off, off, 2200);
+        mpq_set_d(part, whole[k]);
+        mpq_sub(off, off, part);
+        is_near &= fabs(mpq_get_d(off)) <= 0x1.01p-53 * fabs(whole[k]) + 0x1p-100;
+        mpq_set_d(part, rest[k]);
+        mpq_sub(off, off, part);
+        is_near &= fabs(mpq_get_d(off)) <= 0x1p-100;
+        mpq_clears(off, part, NULL);
+    }
+    oracle_quat_clear(exact);
+    oracle_quat_clear(scaled[1]);
+    oracle_quat_clear(scaled[0]);
+    return is_near;
+}
+
+/* What a version writes. */
+struct written {
+    pir_quat_product product;
+    pir_quat unit[2];
+    pir_mat3 r[2];
+};
+
+static void relative_rotations_have_the_same_bits_on_all_processors(void **state) {
+    (void)state;
+    uint32_t taken = 0;
+    for (uint64_t i = 0; i < 30000; i++) {
+        test_random random = test_random_case("rotation versions", i);
+        const pir_quat q = relative_of_case(&random), p = relative_of_case(&random);
+        struct written plain;
+        memset(&plain, 0xff, sizeof plain);
+        const pir_relative_version *first = pir_processor_version(0)->relative;
+        const bool found = first->find(&q, &p, &plain.product, &plain.unit[0], &plain.r[0]);
+        const bool turned = first->turn(&q, &plain.unit[1], &plain.r[1]);
+        if (found && i < 6000)
+            expect(is_near_product(q, p, &plain.product), "case %llu: product", (unsigned long long)i);
+        taken += found;
+        for (unsigned version = 1; pir_processor_version(version); version++) {
+            const pir_relative_version *other = pir_processor_version(version)->relative;
+            struct written written;
+            memset(&written, 0xff, sizeof written);
+            expect(other->find(&q, &p, &written.product, &written.unit[0], &written.r[0]) == found &&
+                       other->turn(&q, &written.unit[1], &written.r[1]) == turned,
+                   "case %llu: version %u takes it or not", (unsigned long long)i, version);
+            expect(memcmp(&written, &plain, sizeof plain) == 0, "case %llu: version %u", (unsigned long long)i,
+                   version);
+        }
+    }
+    expect(taken > 5000, "only %u products were taken", taken);
 }
 
 static void double_matrix_is_within_its_bound(void **state) {
@@ -247,6 +345,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(integer_matrix_is_a_positive_multiple_of_the_rotation),
         cmocka_unit_test(integer_matrix_of_a_relative_rotation_is_that_of_the_product),
+        cmocka_unit_test(relative_rotations_have_the_same_bits_on_all_processors),
         cmocka_unit_test(double_matrix_is_within_its_bound),
         cmocka_unit_test(angle_bound_is_never_below_the_turn_and_close_for_small_ones),
         cmocka_unit_test(bad_quaternions_are_refused_and_change_nothing),

@@ -140,16 +140,13 @@ static inline void pir_frame_set_offset(pir_frame *frame) {
 }
 
 /*
- * Sets a rotation that the frame may be at already; of one that is not relative `rest` is 0. Where P's middle is at its
- * origin the offset is that of the bodies.
+ * Sets a rotation that the frame may be at already, whose doubles it has; of one that is not relative `rest` is 0.
+ * Where P's middle is at its origin the offset is that of the bodies.
  */
-static inline void pir_frame_set_doubles(pir_frame *frame, pir_quat given, pir_quat rest,
-                                         const pir_rotation_doubles *doubles) {
+static inline void pir_frame_set_given(pir_frame *frame, pir_quat given, pir_quat rest) {
     frame->is_set = true;
     frame->given = given;
-    frame->unit = doubles->unit;
     frame->rest = rest;
-    frame->r = doubles->r;
     if (frame->p.far > 0)
         pir_frame_set_offset(frame);
 }
@@ -166,6 +163,15 @@ static inline bool pir_frame_is_near(pir_vec3 t) {
     return (fabs(t.x) < PIR_FARTHEST) & (fabs(t.y) < PIR_FARTHEST) & (fabs(t.z) < PIR_FARTHEST);
 }
 
+/* Sets x from the translation as Q has it, in units of the frame. */
+static inline void pir_frame_set_x(const pir_frame *frame, pir_vec3 t, pir_placement *placement) {
+    // about an offset of 0 the sum is t, and 0 where that is -0
+    if (frame->p.far + frame->q.far > 0)
+        placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), t);
+    else
+        placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
+}
+
 /* Sets reach and error from x, for translations of length `far` at most. */
 static inline void pir_frame_set_reach(const pir_frame *frame, double far, pir_placement *placement) {
     placement->reach = frame->p.size + frame->q.size + sqrt(pir_vec_dot(placement->x, placement->x));
@@ -178,11 +184,7 @@ static inline pir_status pir_frame_place(const pir_frame *frame, pir_vec3 transl
     if (!pir_frame_is_near(t))
         return pir_vec_is_finite(translation) ? PIR_ERR_LIMIT : PIR_ERR_NOT_FINITE;
     ret_placement->translation = translation;
-    // about an offset of 0 the sum below is t, and 0 where that is -0
-    if (frame->p.far + frame->q.far > 0)
-        ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), t);
-    else
-        ret_placement->x = (pir_vec3){t.x + 0.0, t.y + 0.0, t.z + 0.0};
+    pir_frame_set_x(frame, t, ret_placement);
     pir_frame_set_reach(frame, fabs(t.x) + fabs(t.y) + fabs(t.z), ret_placement);
     return PIR_OK;
 }
@@ -208,7 +210,7 @@ static inline bool pir_frame_place_near(const pir_frame *frame, const pir_world 
         return false;
     const pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, near);
     ret_placement->translation = world->translation_p;
-    ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->offset), turned);
+    pir_frame_set_x(frame, turned, ret_placement);
     pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
     ret_placement->error += PIR_TURN_ERROR * pir_vec_taxicab(near);
     return true;
