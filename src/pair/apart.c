@@ -12,8 +12,8 @@
  * facet of either. Round bodies that have moved far are apart from middle to middle, or between all three.
  *
  * That takes no frame: n is turned by both quaternions as they are, and each body is looked at where it lies. With
- * u = 2^-53 a turn by a quaternion is off by 32u, and so n is by 64u as P has it. Each product with it is by less than
- * 2^7 u of the lengths that it is with, and PIR_PROOF_ERROR is 2^13 u of all of these.
+ * u = 2^-53 a turn by a quaternion is off by 32u, and so n is by 64u as P has it. Each product with it is off by less
+ * than 128u of the lengths that it is with, and PIR_PROOF_ERROR is 2^13 u of all of these (tests/proofs/apart.g).
  */
 #include "pair/pair_task.h"
 
