@@ -9,7 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#define STEPS  64
+#define STEPS 64
+
+/* Over what rounding can be, relative to the sizes of the products of a gap: that is below 40·2^-53. */
 #define MARGIN 0x1p-44
 #define CORRAL 4
 
