@@ -237,21 +237,25 @@ static bool set_short(pir_rotation_integers *to) {
     return true;
 }
 
-/* w² ± x² ± y² ± z² as set_diagonal has it. */
-static void set_two_diagonal(const pir_two_limbs q[4], pir_int *entry, int i) {
-    pir_int256 sum = {{0}};
-    for (int k = 0; k < 4; k++)
-        pir_int256_add_product(&sum, i < 3 && k != 3 && k != i ? -q[k] : q[k], q[k]);
-    pir_int_set_wide(entry, &sum);
+static pir_int256 product_of(pir_two_limbs a, pir_two_limbs b) {
+    pir_int256 product = {{0}};
+    pir_int256_add_product(&product, a, b);
+    return product;
 }
 
-/* 2 (q_i q_j ± w q_k). */
-static void set_two_entry(const pir_two_limbs q[4], pir_int *entry, int i, bool transposed) {
-    int j = (i + 1) % 3, k = (i + 2) % 3;
-    pir_int256 sum = {{0}};
-    pir_int256_add_product(&sum, 2 * q[i], q[j]);
-    pir_int256_add_product(&sum, transposed ? 2 * q[3] : -2 * q[3], q[k]);
-    pir_int_set_wide(entry, &sum);
+/* a + b, or a − b where `minus`. */
+static pir_int256 sum_of(pir_int256 a, const pir_int256 *b, bool minus) {
+    pir_two_limbs_unsigned carry = minus;
+    for (int k = 0; k < 4; k++) {
+        carry += (pir_two_limbs_unsigned)a.limb[k] + (minus ? ~b->limb[k] : b->limb[k]);
+        a.limb[k] = (mp_limb_t)carry;
+        carry >>= 64;
+    }
+    return a;
+}
+
+static pir_int256 twice(const pir_int256 *a) {
+    return sum_of(*a, a, false);
 }
 
 /* M and |q|² where components are below 2^122, as those of a relative rotation mostly are; sums are below 2^246. */
@@ -260,13 +264,22 @@ static bool set_two(pir_rotation_integers *to) {
     for (int k = 0; k < 4; k++)
         if (!pir_int_get_two(&to->q[k], 122, &q[k]))
             return false;
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        set_two_diagonal(q, &to->m[i][i], i);
-        set_two_entry(q, &to->m[i][j], i, false);
-        set_two_entry(q, &to->m[j][i], i, true);
+    pir_int256 square[4], norm = {{0}};
+    for (int k = 0; k < 4; k++) {
+        square[k] = product_of(q[k], q[k]);
+        norm = sum_of(norm, &square[k], false);
     }
-    set_two_diagonal(q, &to->norm, 3);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        const pir_int256 of_v = product_of(q[i], q[j]), of_w = product_of(q[3], q[k]);
+        const pir_int256 both = sum_of(square[i], &square[3], false), diagonal = sum_of(twice(&both), &norm, true);
+        const pir_int256 less = sum_of(of_v, &of_w, true), more = sum_of(of_v, &of_w, false);
+        const pir_int256 upper = twice(&less), lower = twice(&more);
+        pir_int_set_wide(&to->m[i][i], &diagonal);
+        pir_int_set_wide(&to->m[i][j], &upper);
+        pir_int_set_wide(&to->m[j][i], &lower);
+    }
+    pir_int_set_wide(&to->norm, &norm);
     return true;
 }
 #else
