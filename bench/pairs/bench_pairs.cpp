@@ -8,7 +8,8 @@
 // Motions named "both" move Q as well; whoever can only place one body is given P as Q sees it, made before.
 // Pairs of different bodies have slivers: see pair_poses.hpp.
 //
-// Then what a cold pair's first answer takes, and many pairs at once, each turning. All lines go to pairs.csv.
+// Then what a cold pair's first answer takes, and many pairs at once, each turning. Lines go to pairs.csv, those of
+// motions of both bodies and of different bodies to pairs_motions.csv.
 //
 //     bench_pairs FOLDER
 #include <algorithm>
@@ -230,11 +231,11 @@ void run(FILE *csv, const Bodies &bodies, const char *motion, int steps, const s
     }
 }
 
-// One motion with Q standing, then the same with both moving.
-void run_both(FILE *csv, const Bodies &bodies, const char *motion, int steps, const std::vector<Pose> &poses,
-              double overhead) {
-    run(csv, bodies, motion, steps, q_stands(poses), overhead);
-    run(csv, bodies, (std::string(motion) + " both").c_str(), steps, both_move(poses, steps), overhead);
+// The motion with Q standing, then the same with both moving.
+void run_both(FILE *standing, FILE *moving, const Bodies &bodies, int frames, int steps, double overhead) {
+    const std::vector<Pose> poses = hovering(bodies.p, bodies.q, frames, steps);
+    run(standing, bodies, "hovering", steps, q_stands(poses), overhead);
+    run(moving, bodies, "hovering both", steps, both_move(poses, steps), overhead);
 }
 
 // Apart by three tenths of the way, deep by as much, and in no order, both moving.
@@ -324,7 +325,7 @@ int main(int argc, char **argv) {
         return 2;
     }
     results where = results_new(argv[1]);
-    FILE *csv = results_open(&where, "pairs.csv");
+    FILE *csv = results_open(&where, "pairs.csv"), *motions = results_open(&where, "pairs_motions.csv");
     double overhead = clock_cost();
     int frames = (int)results_count(5000);
     struct {
@@ -336,14 +337,15 @@ int main(int argc, char **argv) {
                   {"ellipsoid960", shape("ellipse")}};
     std::printf("%-18s %-13s %5s %-15s %8s %8s %8s %8s %5s   %s\n", "body", "motion", "steps", "who", "median", "mean",
                 "p99", "worst", "wrong", "ours by theirs");
-    std::fprintf(csv, "body,motion,steps,who,median_ns,mean_ns,p99_ns,worst_ns,wrong,frames\n");
+    for (FILE *file : {csv, motions})
+        std::fprintf(file, "body,motion,steps,who,median_ns,mean_ns,p99_ns,worst_ns,wrong,frames\n");
     for (auto &body : bodies) {
         pir_polytope *p = body.polytope;
         if (argc == 3 && std::string(argv[2]) != body.name)
             continue;
         for (int steps : {50, 500, 5000})
-            run_both(csv, {body.name, p, p}, "hovering", steps, hovering(p, p, frames, steps), overhead);
-        run_others(csv, {body.name, p, p}, frames, overhead);
+            run_both(csv, motions, {body.name, p, p}, frames, steps, overhead);
+        run_others(motions, {body.name, p, p}, frames, overhead);
         run_cold(csv, body.name, p, p, hovering(p, p, frames, 7), overhead);
     }
     pir_polytope *sliver = sliver_points(100), *extreme = sphere_points(101);
@@ -353,8 +355,8 @@ int main(int argc, char **argv) {
     for (const Bodies &pair : pairs) {
         if (argc == 3 && std::string(argv[2]) != pair.name)
             continue;
-        run_both(csv, pair, "hovering", 500, hovering(pair.p, pair.q, frames, 500), overhead);
-        run_others(csv, pair, frames, overhead);
+        run_both(motions, motions, pair, frames, 500, overhead);
+        run_others(motions, pair, frames, overhead);
     }
     pir_polytope_release(sliver);
     pir_polytope_release(extreme);
@@ -370,6 +372,7 @@ int main(int argc, char **argv) {
     for (auto &body : bodies)
         pir_polytope_release(body.polytope);
     results_close(csv, "pairs.csv");
+    results_close(motions, "pairs_motions.csv");
     std::printf("results in %s\n", where.folder);
     return 0;
 }

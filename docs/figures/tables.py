@@ -30,6 +30,22 @@ def pairs(r):
                      ">Bullet 3.24"], rows)
 
 
+def pairs_motions(r):
+    def cell(row):
+        return " / ".join(short(float(row[f"{what}_ns"]) / 1e3) for what in ("median", "mean", "p99", "worst"))
+
+    bodies = {**{name: BODIES[name] for name in ("cube", "20 points", "gs4", "ellipsoid960")},
+              "sliver and cube": "a sliver of 100 points, a cube",
+              "sliver and extreme": "a sliver, a hull of 101 points"}
+    rows = []
+    for body, title in bodies.items():
+        for motion in ("hovering both", "apart both", "deep both", "teleport both"):
+            by = {row["who"]: row for row in r.pairs_motions.all(body=body, motion=motion, steps=500)}
+            engines = (by["ours pair"], by["ours manifold"], by.get("box3d manifold"))
+            rows.append([f"{title}, {motion.removesuffix(' both')}", *(cell(row) if row else "–" for row in engines)])
+    return markdown(["bodies, motion of both", ">signed distance", ">cutoff, manifold", ">box3d, manifold"], rows)
+
+
 def query(r):
     asked = (("depth, two cubes", "cubes", "deep"), ("depth, two spheres of 500 facets", "gs4", "deep"),
              ("depth, two ellipsoids of 960 facets", "ellipsoid960", "deep"),
@@ -389,6 +405,7 @@ def solid_track(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts, mesh_sliding,
+    pairs, pairs_motions, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts,
+    mesh_sliding,
     scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, pile_reuse, terrain_reuse, slices,
     slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}
