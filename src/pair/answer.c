@@ -176,24 +176,14 @@ static pir_status find_answer(pir_pair *pair, pir_workspace *workspace, const pi
 
 /* --- the calls --- */
 
-/* Copies a vector number by number. */
-static inline void give_vector(const volatile pir_vec3 *from, pir_vec3 *to) {
-    to->x = from->x;
-    to->y = from->y;
-    to->z = from->z;
-}
-
-/*
- * Copies number by number, as they have just been stored: a wider load would wait until all of them have reached the
- * cache. The compiler may make no wider load of what is volatile.
- */
+/* Copies an answer that has just been stored: see pir_vec_just_stored. */
 static inline void give(const volatile pir_query_result *from, pir_query_result *to) {
     to->state = from->state;
     to->outcome = from->outcome;
     to->distance = from->distance;
-    give_vector(&from->normal, &to->normal);
-    give_vector(&from->point_p, &to->point_p);
-    give_vector(&from->point_q, &to->point_q);
+    to->normal = pir_vec_just_stored(&from->normal);
+    to->point_p = pir_vec_just_stored(&from->point_p);
+    to->point_q = pir_vec_just_stored(&from->point_q);
     to->witness.p.kind = from->witness.p.kind;
     to->witness.p.index = from->witness.p.index;
     to->witness.q.kind = from->witness.q.kind;

@@ -119,13 +119,8 @@ pir_vec3 pir_pair_point_to_world(const pir_workspace *workspace, pir_vec3 y) {
     return pir_vec_add(pir_mat_apply(&workspace->rotation_q.r, y), workspace->world.translation_q);
 }
 
-/* A vector that has just been stored, number by number, as `give` of answer.c reads it. */
-static inline pir_vec3 taken(const volatile pir_vec3 *from) {
-    return (pir_vec3){from->x, from->y, from->z};
-}
-
 void pir_pair_to_world(const pir_workspace *workspace, pir_query_result *result) {
-    const pir_vec3 normal = taken(&result->normal), point = taken(&result->point_q);
+    const pir_vec3 normal = pir_vec_just_stored(&result->normal), point = pir_vec_just_stored(&result->point_q);
     bool has_points = normal.x != 0 || normal.y != 0 || normal.z != 0;
     if (!has_points)
         return;

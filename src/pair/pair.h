@@ -85,6 +85,14 @@ static inline bool pir_pair_allows(const pir_pair *pair, pir_level level) {
     return (pair->levels >> level & 1) != 0;
 }
 
+/*
+ * A vector that has just been stored, number by number, and is read likewise: a wider load would wait until all of
+ * them have reached the cache. The compiler may make no wider load of what is volatile.
+ */
+static inline pir_vec3 pir_vec_just_stored(const volatile pir_vec3 *from) {
+    return (pir_vec3){from->x, from->y, from->z};
+}
+
 /* Whether radii, cutoff and margin are numbers that mean something. */
 static inline pir_status pir_pair_check(const pir_pair_input *input) {
     const double p = input->radius_p, q = input->radius_q;

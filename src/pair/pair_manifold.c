@@ -4,28 +4,37 @@
 
 #include "pair/pair.h"
 
-static pir_vec3 from_world(const pir_workspace *workspace, pir_vec3 point) {
-    return pir_mat_apply_transposed(&workspace->rotation_q.r, pir_vec_sub(point, workspace->world.translation_q));
+static inline pir_vec3 from_world(const pir_workspace *workspace, const pir_vec3 *point) {
+    const pir_vec3 way = pir_vec_sub(pir_vec_just_stored(point), pir_vec_just_stored(&workspace->world.translation_q));
+    return pir_mat_apply_transposed(&workspace->rotation_q.r, way);
 }
 
-/* Brings an answer in the world to Q's frame. */
-static void see_by_q(const pir_workspace *workspace, pir_query_result *answer) {
-    answer->normal = pir_mat_apply_transposed(&workspace->rotation_q.r, answer->normal);
-    answer->point_p = from_world(workspace, answer->point_p);
-    answer->point_q = from_world(workspace, answer->point_q);
+/* An answer in the world, which has mostly just been made, as Q sees it. */
+static inline pir_query_result seen_by_q(const pir_workspace *workspace, const pir_query_result *answer) {
+    return (pir_query_result){
+        .state = answer->state,
+        .outcome = answer->outcome,
+        .distance = answer->distance,
+        .normal = pir_mat_apply_transposed(&workspace->rotation_q.r, pir_vec_just_stored(&answer->normal)),
+        .point_p = from_world(workspace, &answer->point_p),
+        .point_q = from_world(workspace, &answer->point_q),
+        .witness = answer->witness,
+        .steps = answer->steps,
+    };
 }
 
 /* Brings contacts in Q's frame to the world, the first of them being the answer. */
 static void to_world(const pir_workspace *workspace, const pir_query_result *answer, pir_contact *contacts,
                      size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        pir_contact *contact = &contacts[i];
-        contact->point_q = pir_pair_point_to_world(workspace, contact->point_q);
-        contact->point_p = pir_vec_add(contact->point_q, pir_vec_scale(answer->normal, contact->distance));
-        if (i == 0) {
-            contact->point_p = answer->point_p;
-            contact->point_q = answer->point_q;
-        }
+    const pir_vec3 normal = pir_vec_just_stored(&answer->normal);
+    if (count > 0) {
+        contacts[0].point_p = pir_vec_just_stored(&answer->point_p);
+        contacts[0].point_q = pir_vec_just_stored(&answer->point_q);
+    }
+    for (size_t i = 1; i < count; i++) {
+        const pir_vec3 q = pir_pair_point_to_world(workspace, pir_vec_just_stored(&contacts[i].point_q));
+        contacts[i].point_p = pir_vec_add(q, pir_vec_scale(normal, contacts[i].distance));
+        contacts[i].point_q = q;
     }
 }
 
@@ -65,10 +74,8 @@ pir_status pir_pair_manifold(pir_pair *pair, pir_workspace *workspace, const pir
                                 pair->q->vertex_count))
         return PIR_ERR_MEMORY;
     pir_query_result seen;
-    if (workspace->posed) {
-        seen = *answer;
-        see_by_q(workspace, &seen);
-    }
+    if (workspace->posed)
+        seen = seen_by_q(workspace, answer);
     const pir_query_input asked = {.radius_p = input->radius_p, .radius_q = input->radius_q, .margin = input->margin};
     const pir_manifold_ask ask = {&asked, workspace->posed ? &seen : answer, capacity};
     status =
