@@ -38,26 +38,41 @@ static uint32_t list_clips(pir_facet_maker *maker, const pir_plane_facet *facet)
     return count;
 }
 
+static void push_half(pir_facet_maker *maker, uint32_t plane) {
+    pir_space_renew_plane(maker->space, plane);
+    if (pir_space_grow(maker->space, (void **)&maker->half, &maker->half_room, maker->half_count, sizeof *maker->half))
+        maker->half[maker->half_count++] = pir_half(plane, false);
+}
+
 /* Lists the planes that cut, as half-spaces, pair by pair. */
 static bool list_halves(pir_facet_maker *maker, pir_plane_facet *facet) {
-    if (!pir_space_grow(maker->space, (void **)&maker->half, &maker->half_room, facet->cut_count, sizeof *maker->half))
-        return false;
+    maker->half_count = 0;
     for (uint32_t i = 0; i < facet->near_count; i++)
         facet->near[i].cuts = 0;
     for (uint32_t i = 0; i < facet->cut_count; i++) {
         facet->near[facet->cut[i].near].cuts++;
-        pir_space_renew_plane(maker->space, facet->cut[i].plane);
+        push_half(maker, facet->cut[i].plane);
     }
     for (uint32_t i = 0, first = 0; i < facet->near_count; i++) {
         facet->near[i].first_cut = first;
         first += facet->near[i].cuts;
         facet->near[i].cuts = 0;
     }
-    for (uint32_t i = 0; i < facet->cut_count; i++) {
+    for (uint32_t i = 0; i < facet->cut_count && maker->space->status == PIR_OK; i++) {
         pir_near_pair *near = &facet->near[facet->cut[i].near];
         maker->half[near->first_cut + near->cuts++] = pir_half(facet->cut[i].plane, false);
     }
-    return true;
+    return maker->space->status == PIR_OK;
+}
+
+/* Lists the planes of a pair that clipping comes to for the first time, and the half-spaces of those that cut. */
+static void list_late(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
+    const uint32_t before = facet->cut_count;
+    pir_kept_facet_list_planes(maker, facet, at);
+    facet->near[at].first_cut = maker->half_count;
+    for (uint32_t i = before; i < facet->cut_count; i++)
+        push_half(maker, facet->cut[i].plane);
+    facet->near[at].cuts = facet->cut_count - before;
 }
 
 static void clip_candidate(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t polygon, uint32_t clips) {
@@ -67,6 +82,10 @@ static void clip_candidate(pir_facet_maker *maker, pir_plane_facet *facet, uint3
     for (uint32_t i = 0; i < clips && maker->fragments.count > 0 && space->status == PIR_OK; i++) {
         pir_near_pair *near = &facet->near[maker->order[i]];
         uint32_t apart = 0;
+        if (!near->listed)
+            list_late(maker, facet, maker->order[i]);
+        if (space->status != PIR_OK)
+            return;
         near->cover = PIR_COVER_CLIPS;
         maker->record.set = maker->order[i];
         pir_fragments_subtract(&maker->fragments, &maker->polygons, maker->half + near->first_cut, near->cuts, NULL,

@@ -298,15 +298,21 @@ static bool is_below(pir_facet_maker *maker, const pir_plane_facet *facet, pir_n
 /* Takes the pair near[at], which is not known to be apart. */
 static void join(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
     pir_near_pair *near = &facet->near[at];
-    const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
     renew_candidates(maker, facet);
     pir_space_renew_plane(maker->space, facet->half >> 1);
     renew_pair(maker, near->pair);
     near->cover = is_below(maker, facet, near) ? PIR_COVER_BELOW : PIR_COVER_NONE;
-    for (uint32_t k = 0; k < sum->count && near->cover == PIR_COVER_NONE; k++)
-        take_plane(maker, facet, at, sum->plane[k]);
     if (facet->stands && near->cover == PIR_COVER_NONE)
         pir_kept_facet_amend_pair(maker, facet, at);
+}
+
+void pir_kept_facet_list_planes(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
+    const pir_kept_pair_sum *sum = &maker->pairs->pair[facet->near[at].pair];
+    renew_candidates(maker, facet);
+    renew_pair(maker, facet->near[at].pair);
+    for (uint32_t k = 0; k < sum->count; k++)
+        take_plane(maker, facet, at, sum->plane[k]);
+    facet->near[at].listed = true;
 }
 
 static void add_near(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t pair) {
@@ -327,13 +333,13 @@ void pir_kept_facet_make(pir_facet_maker *maker, pir_plane_facet *facet, const u
 }
 
 void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count) {
-    for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++) {
-        uint32_t at = 0;
-        while (at < facet->near_count && facet->near[at].pair != near[i])
-            at++;
-        if (at == facet->near_count)
+    pir_kept_pair_sum *pair = maker->pairs->pair;
+    const uint32_t look = ++maker->pairs->looks;
+    for (uint32_t i = 0; i < facet->near_count; i++)
+        pair[facet->near[i].pair].met = look;
+    for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++)
+        if (pair[near[i]].met != look)
             add_near(maker, facet, near[i]);
-    }
 }
 
 /* --- after a turn --- */
@@ -350,7 +356,7 @@ static bool take_changes(pir_facet_maker *maker, pir_plane_facet *facet) {
         renew_candidates(maker, facet);
         if (near->cover == PIR_COVER_BELOW && pir_plane_is_dropped(maker->pairs, near->plane))
             join(maker, facet, i);
-        else if (near->cover == PIR_COVER_CLIPS || near->cover == PIR_COVER_NONE)
+        else if (near->listed)
             for (uint32_t k = 0; k < sum->new_count; k++)
                 take_plane(maker, facet, i, maker->pairs->added[sum->first_new + k]);
     }

@@ -16,8 +16,8 @@
  * - Each side that its record has is as it was told, or may be wrong only if P has turned past what is noted there.
  * - Of each pair whose sum is nearer to its candidates than the skin there is an entry, which says what of it counts.
  *   A pair that is not there covers nothing.
- * - Of a pair that may clip, each plane either has all corners of the candidates below it, or in it at every rotation,
- *   and so cuts nothing of them; or it is among `cut`.
+ * - Of a pair whose planes are listed, as are those of all that clipping came to, each plane either has all corners of
+ *   the candidates below it, or in it at every rotation, and so cuts nothing of them; or it is among `cut`.
  */
 #ifndef PIR_SOLID_KEPT_KEPT_FACET_H
 #define PIR_SOLID_KEPT_KEPT_FACET_H
@@ -51,6 +51,7 @@ enum pir_pair_cover {
 typedef struct pir_near_pair {
     uint32_t pair;
     enum pir_pair_cover cover;
+    bool listed;    /* whether its planes are among `far` and `cut` */
     uint32_t plane; /* below, or apart */
     double until, depth;
     uint32_t first_cut, cuts; /* scratch of clipping */
@@ -131,7 +132,7 @@ typedef struct pir_facet_maker {
     pir_side_record record;
     pir_polygons polygons;
     pir_fragments fragments, kept;
-    uint32_t *half, half_room, *order, *work, order_room, work_room;
+    uint32_t *half, half_count, half_room, *order, *work, order_room, work_room;
     uint64_t made, looked; /* facets clipped, sides looked at, in this frame */
 } pir_facet_maker;
 
@@ -162,6 +163,9 @@ double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double d
 
 /* A distance by doubles that a point has at least from a plane, on that side; 0 or less where they do not tell. */
 double pir_sure_distance(const pir_space *space, uint32_t plane, uint32_t point, int side);
+
+/* Lists the planes of the pair near[at], which may clip. */
+void pir_kept_facet_list_planes(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at);
 
 /* --- clipping (clip_facet.c) --- */
 
