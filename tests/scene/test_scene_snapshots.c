@@ -266,7 +266,7 @@ static void restore_short_of_memory(bool updated) {
 #define LONG   64
 
 /* A frame of a life that depends on the state of the scene and on numbers alone. */
-static uint64_t live(pir_scene *scene, pir_polytope **shape, uint64_t number, int frame) {
+static uint64_t live(pir_scene *scene, pir_polytope *const *shape, uint64_t number, int frame) {
     test_random random = test_random_case("lives", number * 1000 + (uint64_t)frame);
     static pir_scene_move move[256];
     size_t moves = 0;
@@ -317,6 +317,57 @@ static void make_shapes(uint64_t number, pir_polytope **shape) {
     }
 }
 
+/* The frames of a life, and the snapshots before them. */
+struct life {
+    uint64_t number;
+    pir_polytope *shape[SHAPES];
+    pir_scene *scene[3]; /* with 1, 2 and 4 threads */
+    struct bytes before[LONG];
+    uint64_t hash[LONG];
+};
+
+/* The first time, in all three scenes: their frames are the same. */
+static void begin_life(struct life *life, uint64_t number) {
+    static const uint32_t threads[3] = {1, 2, 4};
+    pir_scene_options options = pir_scene_options_default();
+    life->number = number;
+    options.margin = number % 2 ? 0.03125 : 0;
+    options.unions = number % 4 == 3;
+    options.reuse = number % 3 == 1 ? 0.125 : 0;
+    options.keep_shapes = true;
+    make_shapes(number, life->shape);
+    for (int k = 0; k < 3; k++) {
+        options.threads = threads[k];
+        assert_int_equal(pir_scene_create(&options, &life->scene[k]), PIR_OK);
+        for (int f = 0; f < LONG; f++) {
+            struct bytes before = snapshot(life->scene[k]);
+            const uint64_t hash = live(life->scene[k], life->shape, number, f);
+            if (k == 0) {
+                life->before[f] = before;
+                life->hash[f] = hash;
+                continue;
+            }
+            expect(same_bytes(&before, &life->before[f]) && hash == life->hash[f], "life %llu, frame %d, %u threads",
+                   (unsigned long long)number, f, threads[k]);
+            free(before.data);
+        }
+    }
+}
+
+/* Frames from one on, gone again in a scene; how many. */
+static uint64_t live_again(const struct life *life, pir_scene *scene, int from, int to) {
+    assert_int_equal(pir_scene_restore(scene, life->before[from].data, life->before[from].size, NULL), PIR_OK);
+    for (int f = from; f < to; f++) {
+        struct bytes again = snapshot(scene);
+        expect(same_bytes(&again, &life->before[f]), "life %llu, frame %d", (unsigned long long)life->number, f);
+        free(again.data);
+        expect(pir_scene_is_valid(scene), "life %llu, frame %d", (unsigned long long)life->number, f);
+        expect(live(scene, life->shape, life->number, f) == life->hash[f], "life %llu from %d, frame %d",
+               (unsigned long long)life->number, from, f);
+    }
+    return (uint64_t)(to - from);
+}
+
 /* Back and forth over bodies that come, go and change, with 1, 2 and 4 threads: all bits as the first time. */
 static void a_scene_goes_back_over_bodies_that_come_and_go(void **state) {
     (void)state;
@@ -324,42 +375,23 @@ static void a_scene_goes_back_over_bodies_that_come_and_go(void **state) {
     const uint64_t lives = asked ? strtoull(asked, NULL, 10) : 6;
     uint64_t frames = 0;
     for (uint64_t n = 0; n < lives; n++) {
-        pir_polytope *shape[SHAPES];
-        pir_scene *scene;
-        struct bytes before[LONG];
-        uint64_t hash[LONG];
         test_random random = test_random_case("ways back", n);
-        pir_scene_options options = pir_scene_options_default();
-        options.margin = n % 2 ? 0.03125 : 0;
-        options.threads = n % 3 == 2 ? 4 : 1 + (uint32_t)(n % 3);
-        options.unions = n % 4 == 3;
-        options.keep_shapes = true;
-        make_shapes(n, shape);
-        assert_int_equal(pir_scene_create(&options, &scene), PIR_OK);
-        for (int f = 0; f < LONG; f++) {
-            before[f] = snapshot(scene);
-            hash[f] = live(scene, shape, n, f);
-        }
+        struct life life;
+        begin_life(&life, n);
         for (int back = 0; back < 40; back++) {
             const int from = (int)test_random_below(&random, LONG), to = from + 1 + (int)test_random_below(&random, 8);
-            assert_int_equal(pir_scene_restore(scene, before[from].data, before[from].size, NULL), PIR_OK);
-            for (int f = from; f < to && f < LONG; f++, frames++) {
-                struct bytes again = snapshot(scene);
-                expect(same_bytes(&again, &before[f]), "life %llu, frame %d", (unsigned long long)n, f);
-                free(again.data);
-                expect(pir_scene_is_valid(scene), "life %llu, frame %d", (unsigned long long)n, f);
-                expect(live(scene, shape, n, f) == hash[f], "life %llu from %d, frame %d", (unsigned long long)n, from,
-                       f);
-            }
+            pir_scene *scene = life.scene[back % 3];
+            frames += live_again(&life, scene, from, to < LONG ? to : LONG);
             // a way that is not gone again: other bodies under the numbers
-            if (back % 3 == 0)
-                live(scene, shape, n + 77, back);
+            if (back % 4 == 0)
+                live(scene, life.shape, n + 77, back);
         }
         for (int f = 0; f < LONG; f++)
-            free(before[f].data);
-        pir_scene_destroy(scene);
+            free(life.before[f].data);
+        for (int k = 0; k < 3; k++)
+            pir_scene_destroy(life.scene[k]);
         for (uint32_t i = 0; i < SHAPES; i++)
-            pir_polytope_release(shape[i]);
+            pir_polytope_release(life.shape[i]);
     }
     print_message("%llu frames gone again\n", (unsigned long long)frames);
 }
