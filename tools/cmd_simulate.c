@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <stage.h>
+#include <play.h>
 
 #include "args.h"
 #include "cmd.h"
@@ -18,23 +18,27 @@
 #include "model.h"
 #include "progress.h"
 #include "simulate/playback.h"
+#include "simulate/profile.h"
 #include "simulate/recording.h"
+#include "simulate/scenes.h"
 #include "target.h"
 #include "text.h"
 
 /* A recording has 60 frames a second, a page every second one of them. */
-#define FRAME_RATE  60
+#define FRAME_RATE  STAGE_RATE
 #define SECONDS_MAX 3600
 
 struct run {
     const char *path; /* of the scene */
     struct stage stage;
-    struct world *world;
+    struct play *play;
+    struct world *world; /* of the play */
     struct playback playback;
+    struct profile profile;
+    bool is_short;                      /* of memory, for the profile */
     struct output_file page, recording; /* open where they were asked for */
     double asked;                       /* how many seconds were to be simulated */
     uint32_t frames;                    /* after the first one */
-    uint32_t steps;                     /* of a frame */
     double seconds;                     /* that the run took */
     uint64_t state;                     /* a hash of poses and contacts at the end */
 };
@@ -58,6 +62,11 @@ static uint32_t frames_of(double seconds) {
     return seconds > 0 ? (uint32_t)fmax(1, nearbyint(seconds * FRAME_RATE)) : 0;
 }
 
+static uint64_t clock_of_updates(void *context) {
+    (void)context;
+    return (uint64_t)clock_now();
+}
+
 /* The scene with what the options say otherwise. */
 static bool read_stage(const struct args *args, struct run *run) {
     char why[STAGE_WHY];
@@ -75,18 +84,21 @@ static bool read_stage(const struct args *args, struct run *run) {
         complain("simulate: --seconds: %g is not between 0 and %d", run->asked, SECONDS_MAX);
         return false;
     }
-    if (!stage_read(run->path, &run->stage, why)) {
+    if (!(scenes_has_name(run->path) ? scenes_read : stage_read)(run->path, &run->stage, why)) {
         complain("%s", why);
         return false;
     }
     run->stage.options.threads = (uint32_t)threads;
     run->stage.options.reuse = reuse;
+    run->stage.options.profile = args_has(args, "-o");
+    run->profile.timed = args_has(args, "--times");
+    if (run->profile.timed)
+        run->stage.options.clock = clock_of_updates;
     if (args_has(args, "--awake"))
         run->stage.options.sleep = false;
     if (run->asked < 0)
         run->asked = run->stage.seconds;
     run->frames = frames_of(run->asked);
-    run->steps = (uint32_t)nearbyint(1 / (FRAME_RATE * run->stage.options.step));
     return !args_has(args, "--record") || recording_check(&run->stage);
 }
 
@@ -106,15 +118,21 @@ static bool add_frame(struct run *run, uint32_t frame) {
     return !run->page.stream || frame % (FRAME_RATE / PLAYBACK_RATE) != 0 || playback_add(&run->playback, run->world);
 }
 
+static void watch(void *context, struct world *world) {
+    struct run *run = context;
+    run->is_short = run->is_short || (run->page.stream && !profile_add(&run->profile, world_scene(world)));
+}
+
 static bool run_world(struct run *run) {
     struct progress progress = progress_new(run->frames);
     const int64_t start = clock_now();
-    pir_status status = stage_world(&run->stage, &run->world);
+    pir_status status = play_begin(&run->stage, watch, run, &run->play);
+    run->world = status == PIR_OK ? play_world(run->play) : NULL;
     bool good = status == PIR_OK && add_frame(run, 0);
     uint32_t frame = 0;
     while (good && frame < run->frames) {
-        for (uint32_t i = 0; status == PIR_OK && i < run->steps; i++)
-            status = world_step(run->world);
+        status = play_frame(run->play);
+        status = run->is_short ? PIR_ERR_MEMORY : status;
         frame++;
         good = status == PIR_OK && add_frame(run, frame);
         progress_show(&progress, frame);
@@ -144,7 +162,7 @@ static bool hash_state(struct run *run) {
 static bool write_targets(struct run *run) {
     const char *title = *run->stage.title ? run->stage.title : model_title(run->path);
     return (!run->page.stream ||
-            (playback_print(run->page.stream, &run->playback, title) && output_commit(&run->page))) &&
+            (playback_print(run->page.stream, &run->playback, title, &run->profile) && output_commit(&run->page))) &&
            (!run->recording.stream || output_commit(&run->recording));
 }
 
@@ -176,7 +194,7 @@ static bool print_json(const struct args *args, const struct run *run) {
     json_add_count(&json, json.root, "bodies", run->stage.body_count);
     json_add_count(&json, json.root, "moving", end.moving);
     json_add_number(&json, json.root, "duration", (double)run->frames / FRAME_RATE);
-    json_add_count(&json, json.root, "steps", (uint64_t)run->frames * run->steps);
+    json_add_count(&json, json.root, "steps", (uint64_t)run->frames * play_steps(run->play));
     json_add_number(&json, json.root, "mean_speed", world_mean_speed(run->world));
     json_add_count(&json, json.root, "asleep", end.asleep);
     json_add_count(&json, json.root, "contacts", world_contact_count(run->world));
@@ -200,7 +218,7 @@ static void print_text(const struct args *args, const struct run *run) {
     say("  %-10s %" PRIu32 ", %" PRIu32 " of them moving, %" PRIu32 " asleep at the end\n", "bodies",
         run->stage.body_count, end.moving, end.asleep);
     say("  %-10s %g s in %" PRIu64 " steps", "simulated", (double)run->frames / FRAME_RATE,
-        (uint64_t)run->frames * run->steps);
+        (uint64_t)run->frames * play_steps(run->play));
     if (fabs(run->asked * FRAME_RATE - run->frames) > 1e-6)
         say(", as near to %g s as frames of 1/%d s come", run->asked, FRAME_RATE);
     say("\n");
@@ -225,13 +243,19 @@ static bool tell(const struct args *args, const struct run *run) {
 
 SUBCOMMAND(simulate) {
     struct run run = {.path = args->positional[0]};
+    if (args_has(args, "--list") != !run.path)
+        return complain(run.path ? "simulate: --list stands alone, without a scene"
+                                 : "simulate: SCENE.json is missing; pirouette simulate --list shows scenes by name");
+    if (!run.path)
+        return scenes_list(args_has(args, "--json")) ? EXIT_DONE : EXIT_BAD_INPUT;
     bool good = check_targets(args) && read_stage(args, &run) && open_targets(args, &run) && run_world(&run) &&
                 hash_state(&run) && write_targets(&run);
     good = good && tell(args, &run);
     output_discard(&run.page);
     output_discard(&run.recording);
     playback_clear(&run.playback);
-    world_destroy(run.world);
+    profile_clear(&run.profile);
+    play_end(run.play);
     stage_clear(&run.stage);
     return good ? EXIT_DONE : EXIT_BAD_INPUT;
 }

@@ -128,6 +128,8 @@ static const struct option simulate_options[] = {
     {"-o", "FILE", "write a page that plays the run back to FILE, .html"},
     {"--record", "FILE",
      "write the poses of convex bodies, 60 frames a second, to FILE; docs/scenes.md has the format"},
+    {"--list", NULL, "show the scenes that have a name"},
+    {"--times", NULL, "put on the page how long the parts of updates took, which differs from run to run"},
     {"--seconds", "S", "simulate S seconds, to the nearest 1/60 (what the scene says, or 10)"},
     {"--awake", NULL, "let no body sleep"},
     {"--threads", "N", "find contacts with N threads; the run is the same (1)"},
@@ -534,13 +536,13 @@ const struct command command_table[] = {
         .name = "simulate",
         .run = CORE(cmd_simulate),
         .positional = {"SCENE.json"},
-        .required = 1,
+        .required = 0,
         .summary = "run a scene of rigid bodies, as a page that plays it back",
         .details = "The scene says shapes, by model or by points, and bodies; docs/scenes.md has its keys, "
-                   "examples/scenes has scenes. Files of models are looked for from its folder on. Steps are of "
-                   "1/240 s, and a run is the same on every machine.",
+                   "examples/scenes has scenes. Those of --list may be named as scene:NAME. Files of models are looked "
+                   "for from its folder on. Steps are of 1/240 s, and a run is the same on every machine.",
         .options = simulate_options,
-        .examples = {{"simulate stack.json -o stack.html", "a page that needs nothing else"},
+        .examples = {{"simulate scene:cards -o cards.html", "a page that needs nothing else"},
                      {"simulate pile.json --seconds 5 --record pile.bin", "poses for a replay"}},
     },
     {

@@ -115,6 +115,23 @@ bool contacts_follow(struct contacts *next, const struct contacts *last, const s
     return done;
 }
 
+bool contacts_copy(struct contacts *to, const struct contacts *from) {
+    void *link = to->link, *point = to->point;
+    bool done = reserve(&link, &to->link_room, from->link_count, sizeof *to->link);
+    to->link = link;
+    done = done && reserve(&point, &to->point_room, from->point_count, sizeof *to->point);
+    to->point = point;
+    if (!done)
+        return false;
+    to->link_count = from->link_count;
+    to->point_count = from->point_count;
+    if (from->link_count > 0)
+        memcpy(to->link, from->link, from->link_count * sizeof *to->link);
+    if (from->point_count > 0)
+        memcpy(to->point, from->point, from->point_count * sizeof *to->point);
+    return true;
+}
+
 void contacts_clear(struct contacts *contacts) {
     free(contacts->link);
     free(contacts->point);

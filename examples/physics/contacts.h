@@ -12,6 +12,9 @@
 bool contacts_follow(struct contacts *next, const struct contacts *last, const struct body *body,
                      const pir_scene_event *event, size_t count);
 
+/* Makes `to` the same as `from`, in memory of its own. False where memory runs out. */
+bool contacts_copy(struct contacts *to, const struct contacts *from);
+
 void contacts_clear(struct contacts *contacts);
 
 #endif

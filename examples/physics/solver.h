@@ -30,6 +30,8 @@ struct body {
     double work, change;                  /* of the impacts of its group, while they are found */
     double still;                         /* for how many seconds it has been */
     bool asleep;
+    bool sensor;
+    uint32_t sensed; /* how many pairs of pieces it shares with sensors */
     const struct world_shape *shape;
 };
 

@@ -48,7 +48,7 @@ static pir_status reserve(struct sweep *sweep, uint32_t count) {
     return PIR_OK;
 }
 
-/* Such bodies do not meet each other, so that a scene keeps no pairs: only casts see them. */
+/* Such bodies do not meet each other, so that a scene keeps no pairs: casts alone see those that have a category. */
 static pir_status add(pir_scene *scene, const struct body *body, pir_polytope *const *pieces, uint32_t category) {
     const struct world_shape *shape = body->shape;
     pir_body_options options = pir_body_options_default();
@@ -67,10 +67,11 @@ pir_status sweep_add(struct sweep *sweep, const struct body *body, uint32_t numb
     const struct world_shape *shape = body->shape;
     pir_status status = reserve(sweep, number + 1);
     const bool surface = world_shape_is_surface(shape);
+    const uint32_t category = body->sensor ? 0 : surface ? SURFACES : SOLIDS;
     if (status == PIR_OK)
-        status = add(sweep->scene, body, shape->piece, surface ? SURFACES : SOLIDS);
+        status = add(sweep->scene, body, shape->piece, category);
     // a surface has no core
-    return status == PIR_OK ? add(sweep->cores, body, shape->core[WORLD_CORES - 1], surface ? 0 : SOLIDS) : status;
+    return status == PIR_OK ? add(sweep->cores, body, shape->core[WORLD_CORES - 1], category & SOLIDS) : status;
 }
 
 static pir_status update(const struct sweep *sweep, const pir_scene_move *moves, size_t count) {

@@ -141,6 +141,8 @@ pir_status world_create(const struct world_options *options, struct world **ret_
     world->options.margin = scene.margin = options->margin > 0 ? options->margin : MARGIN_LEAST;
     scene.threads = options->threads;
     scene.reuse = options->reuse;
+    scene.profile = options->profile;
+    scene.clock = options->clock;
     pir_status status = pir_scene_create(&scene, &world->scene);
     if (status == PIR_OK)
         status = sweep_init(&world->sweep);
@@ -196,8 +198,9 @@ pir_status world_add(struct world *world, const struct world_body *from) {
                         .radius = from->shape->radius,
                         .friction = from->friction,
                         .restitution = from->restitution,
+                        .sensor = from->sensor,
                         .shape = from->shape};
-    if (body.kind == PIR_BODY_MOVING && world_shape_is_surface(from->shape))
+    if (body.kind == PIR_BODY_MOVING && (body.sensor || world_shape_is_surface(from->shape)))
         return PIR_ERR_ARGUMENT;
     if (body.kind == PIR_BODY_MOVING) {
         set_mass(&body, from);
@@ -206,6 +209,7 @@ pir_status world_add(struct world *world, const struct world_body *from) {
     }
     pir_body_options options = pir_body_options_default();
     options.kind = body.kind;
+    options.sensor = body.sensor;
     // of length 1 from the beginning
     options.pose = body.pose = pir_pose_integrate(body.pose, body.velocity, body.spin, 0);
     options.pieces = from->shape->piece;
@@ -259,6 +263,11 @@ static pir_status find_contacts(struct world *world, size_t moved) {
         return status;
     size_t count;
     const pir_scene_event *event = pir_scene_events(world->scene, &count);
+    for (size_t i = 0; i < count; i++)
+        if (event[i].sensor && event[i].kind != PIR_EVENT_PERSISTED) {
+            const uint32_t other = world->body[event[i].body_p].sensor ? event[i].body_q : event[i].body_p;
+            world->body[other].sensed += event[i].kind == PIR_EVENT_BEGAN ? 1 : UINT32_MAX;
+        }
     if (!contacts_follow(&world->last, &world->contacts, world->body, event, count))
         return PIR_ERR_MEMORY;
     struct contacts now = world->last;
@@ -302,11 +311,77 @@ pir_status world_step(struct world *world) {
     return PIR_OK;
 }
 
+void world_set_velocity(struct world *world, uint32_t number, pir_vec3 velocity) {
+    struct body *body = &world->body[number];
+    body->velocity = velocity;
+    body->asleep = false;
+    body->still = 0;
+}
+
+/* --- states --- */
+
+/* The scene, and those of the sweep. */
+#define SCENES 3
+
+struct world_state {
+    uint32_t count;
+    struct body *body;
+    struct contacts contacts;
+    struct {
+        void *bytes;
+        size_t size;
+    } scene[SCENES];
+};
+
+static pir_scene *scene_of(const struct world *world, int which) {
+    return which == 0 ? world->scene : which == 1 ? world->sweep.scene : world->sweep.cores;
+}
+
+void world_state_destroy(struct world_state *state) {
+    if (!state)
+        return;
+    for (int i = 0; i < SCENES; i++)
+        free(state->scene[i].bytes);
+    contacts_clear(&state->contacts);
+    free(state->body);
+    free(state);
+}
+
+struct world_state *world_save(struct world *world) {
+    struct world_state *state = calloc(1, sizeof *state);
+    bool done = state && (state->body = calloc(world->count + (size_t)1, sizeof *state->body)) &&
+                contacts_copy(&state->contacts, &world->contacts);
+    for (int i = 0; done && i < SCENES; i++) {
+        const size_t size = state->scene[i].size = pir_scene_serialised_size(scene_of(world, i));
+        state->scene[i].bytes = malloc(size);
+        done = state->scene[i].bytes && pir_scene_serialise(scene_of(world, i), state->scene[i].bytes, size) == PIR_OK;
+    }
+    if (!done) {
+        world_state_destroy(state);
+        return NULL;
+    }
+    state->count = world->count;
+    for (uint32_t i = 0; i < world->count; i++)
+        state->body[i] = world->body[i];
+    return state;
+}
+
+pir_status world_restore(struct world *world, const struct world_state *state) {
+    if (state->count != world->count)
+        return PIR_ERR_ARGUMENT;
+    pir_status status = contacts_copy(&world->contacts, &state->contacts) ? PIR_OK : PIR_ERR_MEMORY;
+    for (int i = 0; status == PIR_OK && i < SCENES; i++)
+        status = pir_scene_restore(scene_of(world, i), state->scene[i].bytes, state->scene[i].size, NULL);
+    for (uint32_t i = 0; status == PIR_OK && i < world->count; i++)
+        world->body[i] = state->body[i];
+    return status;
+}
+
 /* --- what can be seen --- */
 
 struct world_motion world_motion(const struct world *world, uint32_t i) {
     const struct body *body = &world->body[i];
-    return (struct world_motion){body->pose, body->velocity, body->spin, body->asleep};
+    return (struct world_motion){body->pose, body->velocity, body->spin, body->asleep, body->sensed > 0};
 }
 
 double world_mean_speed(const struct world *world) {

@@ -58,6 +58,9 @@ struct world_options {
     bool sleep;
     uint32_t threads; /* of the scene */
     double reuse;     /* of the scene: how far bodies may move before their contacts are found anew, in m */
+    bool profile;     /* of the scene */
+    /* NULL, or a clock in nanoseconds, by which the profile has times. */
+    uint64_t (*clock)(void *context);
 };
 
 /* 9.81 m/s² along −z, 1/240 s, 5 mm, 8 and 4 passes, sleeping, one thread, contacts found anew in each step. */
@@ -71,6 +74,7 @@ struct world_body {
     double density;                  /* > 0 */
     double friction;                 /* ≥ 0; of two bodies the geometric mean counts */
     double restitution;              /* 0 to 1; of two bodies the greater counts */
+    bool sensor;                     /* no moving one: nothing touches it, and what is in it is told */
 };
 
 /* Two pieces that touch or nearly do, as of the last step. */
@@ -87,6 +91,7 @@ struct world_motion {
     pir_pose pose;
     pir_vec3 velocity, spin;
     bool asleep;
+    bool sensed; /* in a sensor */
 };
 
 struct world;
@@ -108,6 +113,19 @@ uint32_t world_count(const struct world *world);
 pir_status world_step(struct world *world);
 
 struct world_motion world_motion(const struct world *world, uint32_t body);
+
+/* Gives a kinematic body another velocity, or a moving one, which it wakes. */
+void world_set_velocity(struct world *world, uint32_t body, pir_vec3 velocity);
+
+/*
+ * All that steps depend on, to go back to: the same steps after it have the same bits. The bodies of the world must be
+ * those that it had then. NULL where memory runs out.
+ */
+struct world_state *world_save(struct world *world);
+pir_status world_restore(struct world *world, const struct world_state *state);
+
+/* NULL is accepted. */
+void world_state_destroy(struct world_state *state);
 
 /* Mean over the moving bodies of speed; 0 where there are none. */
 double world_mean_speed(const struct world *world);

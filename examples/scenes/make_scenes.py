@@ -214,9 +214,103 @@ def bullets():
     return {"title": "Bullets of 200 m/s and plates of 1 cm", "seconds": 3, "shapes": shapes, "bodies": bodies}
 
 
+def lying(numbers, center, count, reach):
+    """Hulls that fall about a place."""
+    return [body(f"hull {i % 8}", [center[0] + numbers.uniform(-reach, reach),
+                                   center[1] + numbers.uniform(-reach, reach), center[2] + 0.25 * i],
+                 turned(numbers)) for i in range(count)]
+
+
+def character():
+    """Stairs up, a turning platform across, a ramp down, hulls on the way."""
+    numbers = random.Random(3)
+    shapes, ground = floor(16.0)
+    ring = [[0.3 * math.cos(a) * math.cos(b), 0.3 * math.sin(a) * math.cos(b), 0.3 * math.sin(b)]
+            for a in [i * math.pi / 8 for i in range(16)] for b in [i * math.pi / 12 for i in range(7)]]
+    shapes["capsule"] = {"points": [[x, y, side * (z + 0.6)] for x, y, z in ring for side in (-1, 1)]}
+    shapes["stair"], shapes["landing"] = box(0.4, 2.0, 0.2), box(2.0, 2.0, 0.2)
+    shapes["platform"] = box(2.6, 2.6, 0.2)
+    shapes["ramp"] = {"points": [[x, y, z] for y in (-1, 1) for x, z in ((0, 0), (3.4, 0), (0, 1.4))]}
+    for i in range(8):
+        shapes[f"hull {i}"] = hull(numbers, 10 + 2 * i, 0.22)
+    bodies = [ground]
+    bodies += [body("stair", [-4 + 0.4 * i, 0, 0.1 + 0.2 * i], kind="static") for i in range(7)]
+    bodies += [body("landing", [-0.4, 0, 1.3], kind="static"),
+               body("platform", [1.95, 0, 1.3], kind="kinematic", spin=[0, 0, 0.5]),
+               body("ramp", [3.3, 0, 0.002], kind="static", friction=0.8),
+               body("capsule", [-6, 0, 1.0], kind="kinematic", walk=[[1.9, 0], [4.2, 0], [7.2, 0], [6.2, 3.3],
+                                                                     [-5, 3.3]], speed=1.8)]
+    bodies += lying(numbers, [2, 3.4, 0.5], 8, 1.2) + lying(numbers, [-0.4, 0.4, 1.9], 3, 0.4)
+    return {"title": "A character walks over stairs, a turning platform and a ramp", "seconds": 16, "shapes": shapes,
+            "bodies": bodies}
+
+
+def sensors():
+    """Two boxes through which hulls fall, one that is driven to and fro over what lies there."""
+    numbers = random.Random(4)
+    shapes, ground = floor(6.0)
+    shapes["zone"], shapes["beam"] = box(1.4, 1.4, 0.8), box(0.5, 4.0, 0.5)
+    for i in range(8):
+        shapes[f"hull {i}"] = hull(numbers, 10 + 2 * i, 0.2)
+    bodies = [ground, body("zone", [-0.8, 0, 1.6], kind="static", sensor=True),
+              body("zone", [0.9, 0, 0.4], kind="static", sensor=True),
+              body("beam", [-2.6, 0, 0.3], kind="kinematic", velocity=[0.7, 0, 0], sensor=True)]
+    bodies += lying(numbers, [-0.8, 0, 1.4], 12, 0.5) + lying(numbers, [0.9, 0, 0.9], 12, 0.7)
+    return {"title": "Sensors tell which hulls are in them", "seconds": 8, "shapes": shapes, "bodies": bodies}
+
+
+def rollback():
+    """A ball misses a tower of boxes; the run goes back, and then again, with other velocities."""
+    shapes, ground = floor(6.4)
+    shapes["crate"], shapes["ball"] = box(0.3, 0.3, 0.3), {"model": "shape:geodesic?level=3", "scale": 0.2}
+    shapes["rim x"], shapes["rim y"] = box(0.2, 4.4, 0.5), box(6.0, 0.2, 0.5)
+    bodies = [ground, body("ball", [-2.5, 0, 0.21], density=3000, velocity=[3, 1.8, 0])]
+    bodies += [body("crate", [0.31 * (i - (2 - k) / 2), 0, 0.15 + 0.3 * k], density=200)
+               for k in range(3) for i in range(3 - k)]
+    bodies += [body("rim x", [3.1 * side, 0, 0.25], kind="static") for side in (-1, 1)]
+    bodies += [body("rim y", [0, 2.1 * side, 0.25], kind="static") for side in (-1, 1)]
+    backs = [{"at": 1.5, "to": 0.25, "body": 1, "velocity": [3.5, -1.2, 0]},
+             {"at": 3, "to": 0.25, "body": 1, "velocity": [6, 0, 0]}]
+    return {"title": "A shot is taken back twice", "seconds": 6, "rollbacks": backs, "shapes": shapes,
+            "bodies": bodies}
+
+
+def thousands():
+    """Two layers of hulls of twenty shapes over a floor with a rim."""
+    numbers = random.Random(5)
+    shapes, ground = floor(17.0)
+    half = 25 * 0.3 + 0.1
+    shapes["rim x"], shapes["rim y"] = box(0.2, 2 * half + 0.4, 0.6), box(2 * half, 0.2, 0.6)
+    for i in range(20):
+        shapes[f"hull {i}"] = hull(numbers, 8 + 24 * i // 20, 0.14)
+    bodies = [ground] + [body("rim x", [side * (half + 0.1), 0, 0.3], kind="static") for side in (-1, 1)]
+    bodies += [body("rim y", [0, side * (half + 0.1), 0.3], kind="static") for side in (-1, 1)]
+    bodies.append(body([f"hull {i}" for i in range(20)], [-7.35, -7.35, 0.2], grid=[50, 50, 2],
+                       apart=[0.3, 0.3, 0.3], turned=1))
+    return {"title": "Five thousand hulls", "seconds": 2, "margin": 0.02, "shapes": shapes, "bodies": bodies}
+
+
+ABOUT = {
+    "bullets": "Bullets of 200 m/s meet plates of 1 cm, and none passes.",
+    "cards": "A house of cards stands on friction alone.",
+    "character": "A capsule walks by casts alone, up stairs, over a platform that carries it round, down a ramp, and "
+                 "among hulls.",
+    "dominoes": "A ball starts a row of dominoes.",
+    "gears": "Two gears, each of convex pieces; the right one turns by what the left one's teeth push.",
+    "heap": "Eighty hulls fall and come to rest.",
+    "pile": "Five hundred hulls fall and come to rest.",
+    "rollback": "A ball misses a tower. The run goes back to 0.25 s, twice, and on with another velocity of the ball.",
+    "sensors": "Hulls have another colour while they share a point with a sensor; two stand, one is driven.",
+    "slot": "A box goes down a slot with a tenth of a millimetre on each side.",
+    "stack": "Ten boxes stand on one another and do not drift.",
+    "table": "Two mugs and a controller, scanned, fall on a table.",
+    "terrain": "Hulls roll over a height field, round a gate that is driven.",
+    "thousands": "Hulls of twenty shapes fall on a floor and on each other.",
+}
 SCENES = {"stack": stack, "cards": cards, "pile": lambda: pile(500, 8, 12), "heap": lambda: pile(80, 4, 6),
           "dominoes": dominoes, "table": table, "gears": gears, "slot": slot, "terrain": terrain,
-          "bullets": bullets}
+          "bullets": bullets, "character": character, "sensors": sensors, "rollback": rollback,
+          "thousands": thousands}
 
 
 def text_of(scene):
@@ -231,4 +325,4 @@ def text_of(scene):
 if __name__ == "__main__":
     folder = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent)
     for scene_name, make in SCENES.items():
-        (folder / f"{scene_name}.json").write_text(text_of(make()))
+        (folder / f"{scene_name}.json").write_text(text_of({"title": "", "about": ABOUT[scene_name], **make()}))

@@ -186,7 +186,9 @@ int main(int count, char **arguments) {
     if (status == PIR_OK)
         status = playback_init(&page, &stage) ? run(world, &page, &capsule, &above) : PIR_ERR_MEMORY;
     const bool shown = status == PIR_OK && count > 1 && strcmp(arguments[1], "page") == 0;
-    status = shown && !playback_print(stdout, &page, "Terrain") ? PIR_ERR_MEMORY : status;
+    status = shown && !playback_print(stdout, &page, "A capsule walks over hills and a bridge, among 300 bodies", NULL)
+                 ? PIR_ERR_MEMORY
+                 : status;
     const int result = status == PIR_OK ? tell(world, capsule.pose.translation.x - 8, above) : EXIT_FAILURE;
     if (status != PIR_OK)
         fprintf(stderr, "terrain: %s\n", pir_status_text(status));

@@ -200,11 +200,108 @@ class Simulate(Simulated):
 
     def test_every_shipped_scene_runs(self):
         names = sorted(path.stem for path in SCENES.glob("*.json"))
-        self.assertEqual(names, ["bullets", "cards", "dominoes", "gears", "heap", "pile", "slot", "stack", "table",
-                                 "terrain"])
+        self.assertEqual(names, ["bullets", "cards", "character", "dominoes", "gears", "heap", "pile", "rollback",
+                                 "sensors", "slot", "stack", "table", "terrain", "thousands"])
         for name in names:
             told = self.data("simulate", SCENES / f"{name}.json", "--seconds", 0.05)
             self.assertGreater(told["moving"], 0)
+
+    def test_scenes_have_names(self):
+        listed = {one["name"]: one for one in self.data("simulate", "--list")["scenes"]}
+        self.assertEqual(sorted([*listed, "pile", "table"]), sorted(path.stem for path in SCENES.glob("*.json")))
+        for name, one in listed.items():
+            said = json.loads((SCENES / f"{name}.json").read_text())
+            self.assertEqual((one["title"], one["about"]), (said["title"], said["about"]))
+            self.assertIn(f"scene:{name} ", self.good("simulate", "--list"))
+        states = {self.data("simulate", path, "--seconds", 0.5)["state"]
+                  for path in ("scene:heap", SCENES / "heap.json")}
+        self.assertEqual(len(states), 1)
+        self.bad("simulate", "scene:none", says=["scene:none", "--list"])
+        self.bad("simulate", "--list", "scene:heap", says="alone")
+
+    def test_the_page_tells_what_updates_did(self):
+        path, page = self.scene(scene([cube(0.6)], seconds=0.5)), self.path / "p.html"
+        self.good("simulate", path, "-o", page)
+        bytes_of = page.read_bytes()
+        self.good("simulate", path, "-o", page, "--threads", 2)
+        self.assertEqual(page.read_bytes(), bytes_of)  # without times it is the same each time
+        counts = {name: (unit, *numbers) for name, unit, *numbers in self.page(page)["profile"]}
+        self.assertEqual(counts["bodies moved"][0], "")
+        self.assertEqual(counts["bodies moved"][3], 2)  # in the first update, to which the floor is new
+        self.assertEqual(counts["contacts"][3], 4)
+        self.good("simulate", path, "-o", page, "--times")
+        rows = self.page(page)["profile"]
+        self.assertEqual([row for row in rows if not row[1]], [[name, *row] for name, row in counts.items()])
+        times = [row for row in rows if row[1] == "µs"]
+        self.assertEqual((times[0][0], len(times)), ("update", 8))
+        self.assertAlmostEqual(times[0][2], sum(row[2] for row in times[1:]), delta=1e-3 * times[0][2])
+        for _, _, mean, p99, worst in rows:
+            self.assertTrue(0 <= mean <= worst and p99 <= worst)
+
+    def test_a_sensor_tells_and_holds_nothing(self):
+        """A cube that falls through a sensor is in it where their boxes meet, and falls as it would without."""
+        zone = {"shape": "cube", "kind": "static", "sensor": True, "position": [0.25, 0, 2.25]}
+        with_zone, without = self.path / "with.html", self.path / "without.html"
+        self.good("simulate", self.scene(scene([cube(4), zone], seconds=2)), "-o", with_zone)
+        self.good("simulate", self.scene(scene([cube(4)], seconds=2)), "-o", without)
+        page = self.page(with_zone)
+        self.assertEqual(page["sensors"], [2])
+        looks = set()
+        for (poses, look, contacts), (others, _, same) in zip(frames_of(page), frames_of(self.page(without))):
+            self.assertEqual((poses[:2], contacts), (others, same))
+            gap = abs(poses[1][2] - 2.25) - 1
+            if abs(gap) > 1e-3:
+                self.assertEqual(look[1] == 4, gap < 0, (gap, look))
+            looks.add(look[1])
+        self.assertEqual(looks, {0, 2, 3, 4} if 2 in looks else {0, 1, 3, 4})
+
+    def test_a_rollback_goes_back(self):
+        """After it the run is that of the earlier time, bit for bit, and elsewhere with another velocity."""
+        bodies = [cube(0.6), cube(1.8, quat=[0.1, 0.2, 0, 1], velocity=[0.5, 0, 0])]
+        short = self.data("simulate", self.scene(scene(bodies, seconds=1)))["state"]
+        back, page = {"at": 1.5, "to": 0.5}, self.path / "b.html"
+        for more in ([], ["--threads", 3]):
+            told = self.data("simulate", self.scene(scene(bodies, seconds=2, rollbacks=[back])), "-o", page, *more)
+            self.assertEqual((told["state"], told["duration"]), (short, 2))
+        frames = frames_of(self.page(page))
+        self.assertEqual(frames[45:61], frames[15:31])
+        self.assertNotEqual(frames[44][0], frames[14][0])
+        twice = [back, {"at": 2, "to": 1.75}]
+        states = [self.data("simulate", self.scene(scene(bodies, seconds=s, rollbacks=b)))["state"]
+                  for s, b in ((2.25, twice), (2, [back | {"body": 2, "velocity": [0, 1, 0]}]))]
+        self.assertEqual(states[0], short)
+        self.assertNotEqual(states[1], short)
+
+    def test_a_body_walks(self):
+        """Up two stairs, to a point and to another, where it stays."""
+        capsule = {"points": [[x, y, z] for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.6, 0.6)]
+                   + [[0, 0, -0.9], [0, 0, 0.9]]}
+        stairs = [{"shape": "slab", "kind": "static", "position": [6 + 0.5 * i, 0, 0.25 * (i + 1)]} for i in range(2)]
+        walker = {"shape": "capsule", "kind": "kinematic", "position": [-1, 0, 1], "walk": [[3, 0], [3, 2]], "speed": 2}
+        data = scene([walker, *stairs], seconds=5)
+        data["shapes"]["capsule"] = capsule
+        page = self.path / "w.html"
+        states = {self.data("simulate", self.scene(data), "-o", page, "--threads", n)["state"] for n in (1, 2)}
+        self.assertEqual(len(states), 1)
+        poses = [frame[0][1] for frame in frames_of(self.page(page))]
+        self.assertTrue(any(abs(x - 3) < 0.06 and abs(y) < 0.06 and z > 1.3 for x, y, z, *_ in poses))
+        self.assertLess(max(abs(poses[-1][0] - 3), abs(poses[-1][1] - 2)), 0.06)
+        self.assertEqual(poses[-1], poses[-15])
+
+    def test_grids_are_many_bodies(self):
+        page = self.path / "g.html"
+        many = {"shape": ["cube", "small"], "grid": [3, 2, 2], "apart": [2, 3, 4], "position": [1, 1, 5], "turned": 7}
+        data = scene([many, cube(0.5, velocity=[0, 0, 0])], seconds=0)
+        data["shapes"]["small"] = CUBE | {"scale": 0.5}
+        self.assertEqual(self.data("simulate", self.scene(data), "-o", page)["bodies"], 14)
+        told = self.page(page)
+        poses = frames_of(told)[0][0]
+        kinds = [list(data["shapes"]).index(name) for name in ("cube", "small")]
+        self.assertEqual(told["shape"][1:13], kinds * 6)
+        places = [(1 + 2 * i, 1 + 3 * j, 5 + 4 * k) for k in range(2) for j in range(2) for i in range(3)]
+        for place, pose in zip(places, poses[1:13]):
+            self.assertLess(max(abs(a - b) for a, b in zip(place, pose)), 1e-3)
+        self.assertEqual(len({tuple(pose[3:]) for pose in poses[1:13]}), 12)
 
     def test_a_recording_has_what_a_replay_needs(self):
         recording = self.path / "heap.bin"
@@ -297,6 +394,25 @@ class Simulate(Simulated):
         refused(body(density="heavy"), "bodies[1].density")
         refused(body(friction=-0.1), "friction")
         refused(body(restitution=2), "restitution")
+        refused(body(sensor=True), "bodies[1].sensor")
+        refused(body(sensor=1, kind="static"), "bodies[1].sensor")
+        refused(scene(about=1), "about")
+        for more, says in (({"walk": [[0, 0]]}, "walk"), ({"walk": [], "kind": "kinematic"}, "walk: is empty"),
+                           ({"walk": [[0]], "kind": "kinematic"}, "walk: element 0"), ({"speed": 1}, "speed"),
+                           ({"walk": [[0, 0]], "kind": "kinematic"}, "shape: is not higher than wide"),
+                           ({"walk": [[0, 0]], "kind": "kinematic", "grid": [1, 1, 1]}, "walk"),
+                           ({"grid": [0, 1, 1]}, "grid: element 0"), ({"grid": [1.5, 1, 1]}, "grid"),
+                           ({"grid": [2000, 2000, 1]}, "more than"), ({"apart": [1, 1, 1]}, "grid: is missing"),
+                           ({"grid": [1, 1, 1], "shape": [1]}, "shape"), ({"shape": ["cube"]}, "shape: is no text"),
+                           ({"grid": [1, 1, 1], "shape": ["ball"]}, "'ball'")):
+            refused(body(**more), "bodies[1]", says)
+        for back, says in (({}, "at: is missing"), ({"at": 1}, "to: is missing"), ({"at": 1, "to": 1}, "goes back"),
+                           ({"at": 1, "to": 0, "body": 1}, "not both"), ({"at": 1, "to": 0, "when": 1}, "unknown key"),
+                           ({"at": 1, "to": 0, "body": 0, "velocity": [0, 0, 0]}, "body: 0"),
+                           ({"at": 1, "to": 0, "body": 9, "velocity": [0, 0, 0]}, "body: 9")):
+            refused(scene([cube(1)], rollbacks=[back]), "rollbacks[0]", says)
+        refused(scene(rollbacks=[{"at": 2, "to": 0}, {"at": 1, "to": 0}]), "rollbacks[1]", "in order")
+        refused(scene(rollbacks={}), "rollbacks: is no array")
         for shape, says in (({}, "none of"), ({"model": "shape:nosuch"}, "nosuch"), ({"model": "none.off"}, "none.off"),
                             ({"model": 1}, "no text"), ({"points": []}, "empty"), ({"points": [[0, 0]]}, "element 0"),
                             ({"points": [[0, 0, 0]]}, "flat"), ({"pieces": []}, "empty"),

@@ -13,10 +13,13 @@ import tempfile
 sys.dont_write_bytecode = True
 import chromium  # noqa: E402
 
-SCENE = {"title": "Two <boxes>", "seconds": 2, "shapes": {"box": {"model": "shape:box?x=1&y=1&z=1"},
-                                                        "floor": {"model": "shape:box?x=9&y=9&z=1"}},
+SCENE = {"title": "Two <boxes>", "about": "One <falls>.", "seconds": 2,
+         "shapes": {"box": {"model": "shape:box?x=1&y=1&z=1"}, "floor": {"model": "shape:box?x=9&y=9&z=1"}},
          "bodies": [{"shape": "floor", "kind": "static", "position": [0, 0, -0.5]},
                     {"shape": "box", "position": [0, 0, 0.5]}, {"shape": "box", "position": [2, 0, 2]}]}
+MORE = {"title": "More", "seconds": 2, "rollbacks": [{"at": 1, "to": 0.5}], "shapes": SCENE["shapes"],
+        "bodies": [SCENE["bodies"][0], SCENE["bodies"][1],
+                   {"shape": "box", "kind": "static", "sensor": True, "position": [0, 0, 1]}]}
 # The colours of the canvas at points of the world.
 LOOK = """(points => {
     const view = viewOf(), seen = new Uint8Array(4);
@@ -65,6 +68,7 @@ def check(browser):
     pictures.add(browser.evaluate(PICTURE))
     assert len(pictures) == 7, len(pictures)
     check_controls(browser)
+    check_words(browser)
     browser.evaluate("show(3); document.getElementById('play').click()")
     browser.wait_until("time != 3")
 
@@ -100,8 +104,42 @@ def check_controls(browser):
         worst = browser.evaluate(f"Math.min(...contactsOf(frames[60].contacts, {body}).map(i => "
                                  "Math.abs(frames[60].contacts[i + 8])))")
         assert worst > 0.9999, worst
+        since = browser.evaluate(f"sinceWhen({body}, 60)")
+        assert f" for {since:.2f} s;" in browser.evaluate(text), (since, browser.evaluate(text))
+        look = browser.evaluate(f"frames.map(frame => frame.look[{body}])")
+        assert look[60 - round(30 * since):] == look[60:] * (round(30 * since) + 1), (since, look)
     browser.evaluate(press % "Escape")
     assert browser.evaluate(text) == nobody
+
+
+def check_words(browser):
+    """The title, what there is to see, colours that occur, and the table of what updates did."""
+    shown = "document.getElementById('%s').textContent"
+    assert browser.evaluate(shown % "title") == "Two <boxes>" and browser.evaluate(shown % "about") == "One <falls>."
+    browser.evaluate("show(0)")
+    assert "2 bodies move, 0 asleep, " in browser.evaluate(shown % "where")
+    legend = browser.evaluate(shown % "legend")
+    assert "static" in legend and "driven" not in legend and "sensor" not in legend, legend
+    rows = browser.evaluate("[...document.querySelectorAll('#profile tr')].map(row => "
+                            "[...row.cells].map(cell => cell.textContent))")
+    assert rows[0] == ["", "mean", "99th percentile", "worst"], rows
+    assert [row[0] for row in rows[1:3]] == ["update, µs", "poses and boxes, µs"] and len(rows) == 21, rows
+    assert all(float(cell.replace(",", "")) >= 0 for row in rows[1:] for cell in row[1:]), rows
+
+
+def check_more(browser):
+    """Sensors are seen through, and change the colour of what is in them; a rollback is told."""
+    browser.evaluate("play(false); document.getElementById('points').click(); show(0)")
+    (*inside, _), (*zone, _) = browser.evaluate(f"{LOOK}([[0, 0, 1], [0, 0, 3]])")
+    told = "document.getElementById('where').textContent"
+    assert is_like(inside, browser.evaluate("LOOKS[4][1].map(x => 255 * x)")) is False  # through the zone
+    assert max(zone) != min(zone) and "in 1 sensor" in browser.evaluate(told), (inside, zone, browser.evaluate(told))
+    assert "1 body moves" in browser.evaluate(told), browser.evaluate(told)
+    assert "taken back" not in browser.evaluate(told)
+    browser.evaluate("show(31)")
+    assert "taken back from 1.00 s to 0.50 s" in browser.evaluate(told), browser.evaluate(told)
+    assert "sensor" in browser.evaluate("document.getElementById('legend').textContent")
+    assert browser.evaluate("document.querySelectorAll('#profile tr').length") == 13  # no times
 
 
 def main(command):
@@ -111,9 +149,10 @@ def main(command):
         return 77
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder)
-        (path / "scene.json").write_text(json.dumps(SCENE))
-        subprocess.run([command, "simulate", path / "scene.json", "-o", path / "page.html"], check=True,
-                       stdout=subprocess.DEVNULL)
+        for name, scene, more in (("page", SCENE, ["--times"]), ("more", MORE, [])):
+            (path / "scene.json").write_text(json.dumps(scene))
+            subprocess.run([command, "simulate", path / "scene.json", "-o", path / f"{name}.html", *more], check=True,
+                           stdout=subprocess.DEVNULL)
         browser = chromium.Chromium(program, "--enable-unsafe-swiftshader")
         try:
             browser.open((path / "page.html").as_uri())
@@ -121,6 +160,8 @@ def main(command):
                 print("no WebGL")
                 return 77
             check(browser)
+            browser.open((path / "more.html").as_uri())
+            check_more(browser)
             # what the driver says of reading pixels is not the page's
             complaints = [text for text in browser.complaints() if "GL Driver Message" not in text]
             assert not complaints, complaints

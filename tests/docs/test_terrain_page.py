@@ -20,7 +20,7 @@ def looks(browser, *points):
 
 
 def check(browser):
-    assert browser.evaluate("document.title") == "Terrain"
+    assert browser.evaluate("document.title") == "A capsule walks over hills and a bridge, among 300 bodies"
     browser.evaluate("play(false); document.getElementById('points').click()")
     count = browser.evaluate("data.kind.length")
     assert (count, browser.evaluate("ground.length"), browser.evaluate("driven.length")) == (303, 2, 1)

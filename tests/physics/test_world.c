@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The world of examples/physics: what stands keeps standing without sleep, a pile comes to rest with little overlap,
- * free bodies keep their angular momentum, what sleeps wakes, and threads change nothing.
+ * free bodies keep their angular momentum, what sleeps wakes, and threads change nothing. A world goes back to a state
+ * that was kept.
  *
  * The environment makes runs longer: PIR_TEST_SECONDS is how long what stands is watched, PIR_TEST_PILE the scene that
  * is to come to rest.
@@ -224,6 +225,50 @@ static void what_begins_inside_is_pushed_out_slowly(void **state) {
     stage_clear(&stage);
 }
 
+static bool same_motion(const struct world_motion *a, const struct world_motion *b) {
+    return memcmp(&a->pose, &b->pose, sizeof a->pose) == 0 &&
+           memcmp(&a->velocity, &b->velocity, sizeof a->velocity) == 0 &&
+           memcmp(&a->spin, &b->spin, sizeof a->spin) == 0 && a->asleep == b->asleep && a->sensed == b->sensed;
+}
+
+/* Back to states in the fall, at the impact and at rest, some of them after other steps than the first time. */
+static void a_world_goes_back(void **state) {
+    (void)state;
+    static const char *const names[3] = {"sensors", "heap", "bullets"};
+    for (int n = 0; n < 3; n++) {
+        struct stage stage = read(names[n]);
+        struct world *world = world_of(&stage), *other = world_of(&stage);
+        uint32_t sensed = 0;
+        run_seconds(world, 0.25 + 0.3 * n);
+        for (int back = 0; back < 4; back++) {
+            struct world_state *kept = world_save(world);
+            struct world_motion *first = calloc(stage.body_count, sizeof *first);
+            assert_true(kept && first);
+            run_seconds(world, 0.2);
+            const uint32_t contacts = world_contact_count(world);
+            for (uint32_t i = 0; i < stage.body_count; i++)
+                first[i] = world_motion(world, i);
+            world_set_velocity(world, stage.body_count - 1, (pir_vec3){1, 0, 2});
+            run_seconds(world, 0.1);
+            struct world *again = back % 2 ? other : world;
+            assert_int_equal(world_restore(again, kept), PIR_OK);
+            run_seconds(again, 0.2);
+            assert_int_equal(world_contact_count(again), contacts);
+            for (uint32_t i = 0; i < stage.body_count; i++) {
+                const struct world_motion motion = world_motion(again, i);
+                expect(same_motion(&motion, &first[i]), "%s: body %u, the %dth time", names[n], i, back);
+                sensed += motion.sensed;
+            }
+            world_state_destroy(kept);
+            free(first);
+        }
+        assert_int_equal(sensed > 0, n == 0);
+        world_destroy(world);
+        world_destroy(other);
+        stage_clear(&stage);
+    }
+}
+
 int main(int argc, char **argv) {
     const struct CMUnitTest standing[] = {
         cmocka_unit_test(a_stack_of_ten_boxes_stands),
@@ -236,6 +281,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(a_free_body_keeps_its_momentum),
         cmocka_unit_test(a_ball_bounces),
         cmocka_unit_test(threads_change_nothing),
+        cmocka_unit_test(a_world_goes_back),
         cmocka_unit_test(what_begins_inside_is_pushed_out_slowly),
     };
     scenes = argc > 1 ? argv[1] : ".";

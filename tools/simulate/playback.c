@@ -2,10 +2,13 @@
 /*
  * The page is playback.html with one object of JSON in it, which holds
  *
- *     title, rate, quantum, frames
+ *     title, about, rate, quantum, frames
  *     shapes: points, facets   floats of all pieces; the count of facets, then for each that of its corners and these
  *     shapes: surface          whether it is a mesh or a height field
  *     shape, kind              a number for each body
+ *     sensors                  which bodies are sensors
+ *     backs                    the rollbacks: the time of the run, and that which it goes back to, in seconds
+ *     profile                  the work of updates: name, unit, mean, 99th percentile and worst of each part
  *     motion                   the frames
  *
  * The frames are numbers as bytes.h writes them; one that may be negative is twice its size, less 1 where it is. A
@@ -34,8 +37,8 @@
 /* No number of quanta is greater: JavaScript has whole numbers of 53 bits, and one bit is the sign. */
 #define NUMBER_MOST 0x1p50
 
-/* The look of a body, by its contacts or because it sleeps. */
-enum look { LOOK_ALONE, LOOK_NEAR, LOOK_OVERLAPPING, LOOK_ASLEEP };
+/* The look of a body, by its contacts, or because it sleeps or is in a sensor. */
+enum look { LOOK_ALONE, LOOK_NEAR, LOOK_OVERLAPPING, LOOK_ASLEEP, LOOK_SENSED };
 
 bool playback_init(struct playback *playback, const struct stage *stage) {
     double least = HUGE_VAL;
@@ -112,8 +115,9 @@ static void add_looks(struct playback *playback, const struct world *world) {
                 playback->next[both[b]] = contact.distance < 0 ? LOOK_OVERLAPPING : LOOK_NEAR;
     }
     for (uint32_t i = 0; i < world_count(world); i++) {
-        if (world_motion(world, i).asleep)
-            playback->next[i] = LOOK_ASLEEP;
+        const struct world_motion motion = world_motion(world, i);
+        if (motion.asleep || motion.sensed)
+            playback->next[i] = motion.sensed ? LOOK_SENSED : LOOK_ASLEEP;
         count += playback->next[i] != playback->look[i];
     }
     bytes_add_number(&playback->motion, count);
@@ -256,11 +260,28 @@ static bool print_shape(FILE *file, const struct world_shape *shape) {
     return status == PIR_OK;
 }
 
-static bool print_data(FILE *file, const struct playback *playback, const char *title) {
+/* Sensors and rollbacks. */
+static void print_sensors(FILE *file, const struct stage *stage) {
+    const char *before = "";
+    fputs("],\"sensors\":[", file);
+    for (uint32_t i = 0; i < stage->body_count; i++)
+        if (stage->body[i].body.sensor) {
+            fprintf(file, "%s%u", before, (unsigned)i);
+            before = ",";
+        }
+    fputs("],\"backs\":[", file);
+    for (uint32_t i = 0; i < stage->back_count; i++)
+        fprintf(file, "%s[%.6g,%.6g]", i ? "," : "", (double)stage->back[i].at / STAGE_RATE,
+                (double)stage->back[i].to / STAGE_RATE);
+}
+
+static bool print_data(FILE *file, const struct playback *playback, const char *title, const struct profile *profile) {
     const struct stage *stage = playback->stage;
     bool done = true;
     fputs("{\"title\":", file);
     bytes_print_text(file, title);
+    fputs(",\"about\":", file);
+    bytes_print_text(file, stage->about);
     fprintf(file, ",\"rate\":%d,\"quantum\":%.17g,\"frames\":%u,\"shapes\":[", PLAYBACK_RATE, playback->quantum,
             (unsigned)playback->frames);
     for (uint32_t i = 0; done && i < stage->shape_count; i++) {
@@ -273,16 +294,24 @@ static bool print_data(FILE *file, const struct playback *playback, const char *
     fputs("],\"kind\":[", file);
     for (uint32_t i = 0; i < stage->body_count; i++)
         fprintf(file, "%s%d", i ? "," : "", (int)stage->body[i].body.kind);
-    fputs("],\"motion\":\"", file);
+    print_sensors(file, stage);
+    fputs("],\"profile\":", file);
+    if (!profile)
+        fputs("[]", file);
+    else if (done && !profile_print(file, profile)) {
+        complain("simulate: out of memory");
+        done = false;
+    }
+    fputs(",\"motion\":\"", file);
     bytes_print(file, playback->motion.at, playback->motion.size);
     fputs("\"}", file);
     return done;
 }
 
-bool playback_print(FILE *file, const struct playback *playback, const char *title) {
+bool playback_print(FILE *file, const struct playback *playback, const char *title, const struct profile *profile) {
     const char *mark = strstr(playback_template, DATA_MARK);
     fwrite(playback_template, 1, (size_t)(mark - playback_template), file);
-    bool done = print_data(file, playback, title);
+    bool done = print_data(file, playback, title, profile);
     fputs(mark + strlen(DATA_MARK), file);
     return done;
 }

@@ -13,6 +13,7 @@
 #include <stage.h>
 
 #include "../views/bytes.h"
+#include "profile.h"
 
 /* Frames a second. */
 #define PLAYBACK_RATE 30
@@ -35,7 +36,7 @@ void playback_clear(struct playback *playback);
 /* Adds a frame: the world as it is. Bodies of the stage beyond those of the world are where the stage has them. */
 bool playback_add(struct playback *playback, const struct world *world);
 
-/* Prints the page; whether what was written arrived is the caller's to see. */
-bool playback_print(FILE *file, const struct playback *playback, const char *title);
+/* Prints the page, with a profile, or NULL; whether what was written arrived is the caller's to see. */
+bool playback_print(FILE *file, const struct playback *playback, const char *title, const struct profile *profile);
 
 #endif
