@@ -82,9 +82,14 @@ static pir_status set_place(const pir_pair *pair, pir_workspace *workspace, cons
     if (!pir_exact_has_limbs(&workspace->exact, pair->limbs) &&
         !pir_exact_reserve_limbs(&workspace->exact, &workspace->allocator, pair->limbs))
         return PIR_ERR_MEMORY;
+    workspace->world.translation_p = input->pose_p.translation;
+    if (workspace->posed && pir_frame_is_far(&workspace->frame) && pir_quat_is_identity(input->pose_p.rotation) &&
+        pir_frame_place_middles(&workspace->frame, &workspace->world, &workspace->placement))
+        return PIR_OK;
+    if (workspace->frame.p.far > 0)
+        pir_frame_set_offset(&workspace->frame);
     if (!workspace->posed)
         return pir_frame_place(&workspace->frame, input->pose_p.translation, &workspace->placement);
-    workspace->world.translation_p = input->pose_p.translation;
     if (pir_frame_place_near(&workspace->frame, &workspace->world, &workspace->placement))
         return PIR_OK;
     return pir_frame_place_relative(&workspace->frame, &workspace->world, &workspace->placement);

@@ -126,6 +126,11 @@ bool pir_frame_turn(pir_frame *frame, const pir_rotation *rotation);
 /* Sets the offset where P's middle is far from its origin. */
 void pir_frame_set_far_offset(pir_frame *frame);
 
+/* Whether P's middle is so far from its origin that turning it takes more than doubles. */
+static inline bool pir_frame_is_far(const pir_frame *frame) {
+    return frame->p.far > 4 * (frame->p.size + frame->q.size);
+}
+
 /*
  * Sets the offset of the frame: Q's middle plus P's rotated middle. Doubles suffice where P's middle is near its
  * origin.
@@ -133,22 +138,20 @@ void pir_frame_set_far_offset(pir_frame *frame);
 static inline void pir_frame_set_offset(pir_frame *frame) {
     if (frame->p.far == 0)
         frame->offset = frame->q.centre;
-    else if (frame->p.far <= 4 * (frame->p.size + frame->q.size))
+    else if (!pir_frame_is_far(frame))
         frame->offset = pir_dd3_add_vec(frame->q.centre, pir_mat_apply(&frame->r, pir_dd3_round(frame->p.centre)));
     else
         pir_frame_set_far_offset(frame);
 }
 
 /*
- * Sets a rotation that the frame may be at already, whose doubles it has; of one that is not relative `rest` is 0.
- * Where P's middle is at its origin the offset is that of the bodies.
+ * Sets a rotation that the frame may be at already, whose doubles it has; of one that is not relative `rest` is 0. The
+ * offset is left to the caller; where P's middle is at its origin it is that of the bodies.
  */
 static inline void pir_frame_set_given(pir_frame *frame, pir_quat given, pir_quat rest) {
     frame->is_set = true;
     frame->given = given;
     frame->rest = rest;
-    if (frame->p.far > 0)
-        pir_frame_set_offset(frame);
 }
 
 /* A translation in units of the frame. */
@@ -211,6 +214,32 @@ static inline bool pir_frame_place_near(const pir_frame *frame, const pir_world 
     const pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, near);
     ret_placement->translation = world->translation_p;
     pir_frame_set_x(frame, turned, ret_placement);
+    pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
+    ret_placement->error += PIR_TURN_ERROR * pir_vec_taxicab(near);
+    return true;
+}
+
+/*
+ * Likewise where P is not turned in the world and its middle is far from its origin, as of a triangle of a terrain: the
+ * way from middle to middle is turned, and not the way to P's origin and P's middle, each. It needs no offset.
+ */
+static inline bool pir_frame_place_middles(const pir_frame *frame, const pir_world *world,
+                                           pir_placement *ret_placement) {
+    const pir_vec3 to = pir_frame_units(frame, world->translation_p);
+    const pir_vec3 from = pir_frame_units(frame, world->translation_q);
+    const pir_dd3 t = {{pir_dd_two_sum(to.x, -from.x), pir_dd_two_sum(to.y, -from.y), pir_dd_two_sum(to.z, -from.z)}};
+    double way[3];
+    for (int k = 0; k < 3; k++) {
+        const pir_dd part = pir_dd_sub(t.c[k], frame->p.centre.c[k]);
+        way[k] = part.hi + part.lo;
+    }
+    const pir_vec3 near = {way[0], way[1], way[2]};
+    if (!pir_frame_is_near(to) || !pir_frame_is_near(from) ||
+        !(pir_vec_taxicab(near) <= 4 * (frame->p.size + frame->q.size)))
+        return false;
+    const pir_vec3 turned = pir_mat_apply_transposed(&world->rotation_q->r, near);
+    ret_placement->translation = world->translation_p;
+    ret_placement->x = pir_dd3_add_rounded(pir_dd3_negate(frame->q.centre), turned);
     pir_frame_set_reach(frame, pir_vec_taxicab(to) + pir_vec_taxicab(from), ret_placement);
     ret_placement->error += PIR_TURN_ERROR * pir_vec_taxicab(near);
     return true;
