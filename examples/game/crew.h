@@ -66,6 +66,7 @@ static inline pir_scene_options crew_options(struct crew *crew, size_t budget) {
     options.allocator = &crew_memory;
     options.budget = budget;
     options.threads = crew->threads;
+    options.detail = PIR_SCENE_DEPTHS; // hulls are pushed along normals: no manifolds
     options.tasks = &tasks;
     options.keep_shapes = true; // of bodies that are gone, for restores
     return options;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Scenes by name; their texts are put into scenes_data.h when the command is built. */
+/* Scenes by name; their texts are put in when the command is built. */
 #include "scenes.h"
 
 #include <stdio.h>
