@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <pirouette/mass.h>
 #include <pirouette/pair.h>
 
 #include "support/answers.h"
@@ -498,6 +499,63 @@ static void a_direction_that_turns_with_p_still_parts(void **state) {
     pir_polytope_release(p);
 }
 
+/* Signed distance of two bodies at their poses, by a pair of their own. */
+static pir_query_result signed_distance(pir_polytope *p, pir_polytope *q, pir_pose pose_p, pir_pose pose_q) {
+    pir_pair_input input = pir_pair_input_default();
+    pir_query_result result = {0};
+    pir_workspace *workspace;
+    pir_pair *pair;
+    input.pose_p = pose_p;
+    input.pose_q = pose_q;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_pair_signed_distance(pair, workspace, &input, &result), PIR_OK);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    return result;
+}
+
+/*
+ * A body far from its origin, as a triangle of a terrain is, which is not turned, beside one that is. With the bodies
+ * exchanged, and with the far one brought to its origin by its pose, the states are the same, and so are distances but
+ * for rounding.
+ */
+static void a_body_far_from_its_origin_answers_as_one_near_it(void **state) {
+    (void)state;
+    const int most[4] = {5, 12, 20, 26};
+    uint64_t states[3] = {0};
+    for (uint64_t n = 0; n < 3000; n++) {
+        test_random random = test_random_case("far bodies", n);
+        const double far = ldexp(1, most[n % 4]);
+        const pir_vec3 d = test_random_direction(&random),
+                       by = {nearbyint(far * d.x), nearbyint(far * d.y), nearbyint(far * d.z)};
+        test_points points, moved;
+        test_body_points(&random, n % 3 ? TEST_BOX : TEST_SPHERE, n % 3 ? 8 : 3, &points);
+        pir_polytope *near_p = test_polytope(&points), *p = NULL;
+        assert_int_equal(pir_polytope_translate(near_p, by, &p), PIR_OK);
+        test_body_points(&random, TEST_SPHERE, 12, &moved);
+        pir_polytope *q = test_polytope(&moved);
+        const pir_quat turn = test_general_rotation(&random);
+        const pir_vec3 off = test_random_direction(&random);
+        const double apart = 2.5 * test_random_unit(&random);
+        const pir_pose none = {{0, 0, 0, n % 5 ? 1 : 3}, {0.25, 0, 0}};
+        const pir_pose at_by = {{0, 0, 0, 1}, {by.x + 0.25, by.y, by.z}};
+        const pir_pose pose = {turn, {by.x + apart * off.x, by.y + apart * off.y, by.z + apart * off.z}};
+        const pir_query_result told = signed_distance(p, q, none, pose), back = signed_distance(q, p, pose, none),
+                               near = signed_distance(near_p, q, at_by, pose);
+        states[told.state]++;
+        expect(told.state == back.state && told.state == near.state, "case %llu: states %d, %d, %d",
+               (unsigned long long)n, (int)told.state, (int)back.state, (int)near.state);
+        expect(fabs(told.distance - back.distance) <= 1e-13 && fabs(told.distance - near.distance) <= 1e-13,
+               "case %llu: distances %.17g, %.17g, %.17g", (unsigned long long)n, told.distance, back.distance,
+               near.distance);
+        pir_polytope_release(p);
+        pir_polytope_release(near_p);
+        pir_polytope_release(q);
+    }
+    assert_true(states[PIR_OUTSIDE] > 300 && states[PIR_INSIDE] > 300);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -509,6 +567,7 @@ int main(void) {
         cmocka_unit_test(a_common_turn_changes_no_state),
         cmocka_unit_test(posed_pairs_answer_alike_at_all_levels),
         cmocka_unit_test(a_direction_that_turns_with_p_still_parts),
+        cmocka_unit_test(a_body_far_from_its_origin_answers_as_one_near_it),
         cmocka_unit_test(an_answer_comes_by_a_level_that_is_allowed),
         cmocka_unit_test(rounded_bodies_are_separated_or_overlap_whatever_the_cutoff),
         cmocka_unit_test(a_level_that_is_capped_refuses_and_one_that_is_forced_answers_alike),
