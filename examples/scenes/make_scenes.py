@@ -221,13 +221,18 @@ def lying(numbers, center, count, reach):
                  turned(numbers)) for i in range(count)]
 
 
+def capsule():
+    """Upright, 1.8 m high."""
+    ring = [[0.3 * math.cos(a) * math.cos(b), 0.3 * math.sin(a) * math.cos(b), 0.3 * math.sin(b)]
+            for a in [i * math.pi / 8 for i in range(16)] for b in [i * math.pi / 12 for i in range(7)]]
+    return {"points": [[x, y, side * (z + 0.6)] for x, y, z in ring for side in (-1, 1)]}
+
+
 def character():
     """Stairs up, a turning platform across, a ramp down, hulls on the way."""
     numbers = random.Random(3)
     shapes, ground = floor(16.0)
-    ring = [[0.3 * math.cos(a) * math.cos(b), 0.3 * math.sin(a) * math.cos(b), 0.3 * math.sin(b)]
-            for a in [i * math.pi / 8 for i in range(16)] for b in [i * math.pi / 12 for i in range(7)]]
-    shapes["capsule"] = {"points": [[x, y, side * (z + 0.6)] for x, y, z in ring for side in (-1, 1)]}
+    shapes["capsule"] = capsule()
     shapes["stair"], shapes["landing"] = box(0.4, 2.0, 0.2), box(2.0, 2.0, 0.2)
     shapes["platform"] = box(2.6, 2.6, 0.2)
     shapes["ramp"] = {"points": [[x, y, z] for y in (-1, 1) for x, z in ((0, 0), (3.4, 0), (0, 1.4))]}
@@ -290,12 +295,34 @@ def thousands():
     return {"title": "Five thousand hulls", "seconds": 2, "margin": 0.02, "shapes": shapes, "bodies": bodies}
 
 
+def game():
+    """What examples/game has: hills, 300 hulls, a character, bullets, a sensor, and a state to go back to."""
+    numbers, side = random.Random(6), 33
+    heights = [[0.5 * math.sin(0.45 * i) * math.sin(0.38 * j) + 0.004 * ((i - 16) ** 2 + (j - 16) ** 2)
+                for i in range(side)] for j in range(side)]
+    shapes = {"hills": {"heights": heights, "step": [0.6, 0.6]}, "capsule": capsule(), "zone": box(3.0, 3.0, 2.0),
+              "plate": box(0.01, 16.0, 4.0), "bullet": {"model": "shape:geodesic?level=1", "scale": 0.04}}
+    for i in range(12):
+        shapes[f"hull {i}"] = hull(numbers, 8 + 2 * i, 0.22)
+    bodies = [body("hills", [0, 0, 0], kind="static"),
+              body("zone", [9.6, 9.6, 1.0], kind="static", sensor=True),
+              body("plate", [17.9, 9.6, 2.5], kind="static"),
+              body("capsule", [2.4, 9.6, 2.6], kind="kinematic", walk=[[4, 3.2], [15.5, 3.2], [15.5, 14]], speed=4),
+              body([f"hull {i}" for i in range(12)], [5.0, 4.4, 2.4], grid=[15, 20, 1], apart=[0.62, 0.55, 0.5],
+                   turned=2)]
+    bodies += [body("bullet", [1.5, 5.0 + 3 * i, 1.9 + 0.3 * i], density=9000, velocity=[200, 0, 0]) for i in range(4)]
+    return {"title": "A game: hulls, a character, bullets, a sensor, taken back once", "seconds": 6,
+            "rollbacks": [{"at": 2, "to": 1, "body": 304, "velocity": [-60, 0, 2]}], "shapes": shapes,
+            "bodies": bodies}
+
+
 ABOUT = {
     "bullets": "Bullets of 200 m/s meet plates of 1 cm, and none passes.",
     "cards": "A house of cards stands on friction alone.",
     "character": "A capsule walks by casts alone, up stairs, over a platform that carries it round, down a ramp, and "
                  "among hulls.",
     "dominoes": "A ball starts a row of dominoes.",
+    "game": "Three hundred hulls on a height field; a character walks round them. At 2 s the run goes back by one.",
     "gears": "Two gears, each of convex pieces; the right one turns by what the left one's teeth push.",
     "heap": "Eighty hulls fall and come to rest.",
     "pile": "Five hundred hulls fall and come to rest.",
@@ -310,7 +337,7 @@ ABOUT = {
 SCENES = {"stack": stack, "cards": cards, "pile": lambda: pile(500, 8, 12), "heap": lambda: pile(80, 4, 6),
           "dominoes": dominoes, "table": table, "gears": gears, "slot": slot, "terrain": terrain,
           "bullets": bullets, "character": character, "sensors": sensors, "rollback": rollback,
-          "thousands": thousands}
+          "game": game, "thousands": thousands}
 
 
 def text_of(scene):

@@ -200,8 +200,8 @@ class Simulate(Simulated):
 
     def test_every_shipped_scene_runs(self):
         names = sorted(path.stem for path in SCENES.glob("*.json"))
-        self.assertEqual(names, ["bullets", "cards", "character", "dominoes", "gears", "heap", "pile", "rollback",
-                                 "sensors", "slot", "stack", "table", "terrain", "thousands"])
+        self.assertEqual(names, ["bullets", "cards", "character", "dominoes", "game", "gears", "heap", "pile",
+                                 "rollback", "sensors", "slot", "stack", "table", "terrain", "thousands"])
         for name in names:
             told = self.data("simulate", SCENES / f"{name}.json", "--seconds", 0.05)
             self.assertGreater(told["moving"], 0)
