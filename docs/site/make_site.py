@@ -41,7 +41,7 @@ PAGES = {
     "docs/upgrading.md": "Upgrading", "CHANGELOG.md": "Changelog",
 }
 # Scenes of the gallery that are shorter there than they say, in seconds.
-SECONDS = {"cards": 4, "game": 4, "gears": 4, "stack": 4, "thousands": 1}
+SECONDS = {"cards": 4, "game": 3, "gears": 3, "stack": 3, "terrain": 5, "thousands": 0.6}
 # Those that have no name, for they need other files.
 UNNAMED = ["table"]
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
