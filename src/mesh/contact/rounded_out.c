@@ -92,7 +92,7 @@ static pir_status leave(pir_contact_job *job, const pir_way_out *out, double ste
         pir_status status = gather_about(job, ret_out->way);
         if (status != PIR_OK)
             return status;
-        if (pir_contact_look(job, ret_out->t))
+        if (pir_contact_look_from(job, ret_out->t, pir_length(ret_out->way)))
             return PIR_OK;
         double deepest = add_deepest(job, ret_out->way, step, &demands);
         *ret_deepest = place == 0 ? deepest : *ret_deepest;

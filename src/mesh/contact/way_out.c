@@ -181,6 +181,11 @@ static bool look_within(pir_contact_job *job, pir_vec3 t, double far) {
     return meets || find_passed(job);
 }
 
+bool pir_contact_look_from(pir_contact_job *job, pir_vec3 t, double way) {
+    const double far = job->input->radius + way;
+    return look_within(job, t, far + 4 * LEVEL * (job->size + far));
+}
+
 bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
     return look_within(job, t, HUGE_VAL);
 }

@@ -19,6 +19,11 @@ typedef struct pir_way_out {
 bool pir_contact_look(pir_contact_job *job, pir_vec3 t);
 /* Likewise where the input has P; what is certainly beyond the margin does not count, at a distance of HUGE_VAL. */
 bool pir_contact_look_first(pir_contact_job *job);
+/*
+ * Likewise at a place as far from one where a triangle was within the radius: that one is within the radius and the
+ * way, so the nearest one counts, with all that share its nearest point.
+ */
+bool pir_contact_look_from(pir_contact_job *job, pir_vec3 t, double way);
 
 /* The place that the input's translation plus a vector of doubles gives, as it rounds: about `by` from there. */
 pir_vec3 pir_contact_place_by(const pir_contact_job *job, pir_vec3 by);
