@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* pirouette impact: when P, which turns about an axis or goes straight on, first touches Q, exactly. */
+/* pirouette impact: when P, which turns about an axis, goes straight on, or both, first touches Q, exactly. */
 #include <inttypes.h>
 #include <stdlib.h>
 
@@ -18,12 +18,12 @@
 struct request {
     pir_pair_input input;
     pir_exact_motion motion;
-    bool turns;
+    bool turns, screws;
 };
 
 struct answer {
     pir_exact_impact impact;
-    mpz_t polynomial[3];
+    mpz_t polynomial[4];
     double seconds;
 };
 
@@ -53,11 +53,15 @@ static bool read_turn(const struct args *args, pir_exact_motion *motion) {
 
 static bool read_way(const struct args *args, pir_exact_motion *motion) {
     static const char *const of_turns[] = {"--pivot", "--angle"};
-    for (size_t i = 0; i < sizeof of_turns / sizeof *of_turns; i++)
+    for (size_t i = 0; i < sizeof of_turns / sizeof *of_turns && motion->degrees == 0; i++)
         if (args_has(args, of_turns[i])) {
             complain("impact: %s is for turns, and needs --axis x,y,z beside it", of_turns[i]);
             return false;
         }
+    if (!(motion->degrees > -180 && motion->degrees < 180)) {
+        complain("impact: --way beside --axis: --angle is to be given, and below 180 degrees");
+        return false;
+    }
     double way[3];
     if (!args_numbers(args, "--way", 3, way))
         return false;
@@ -68,9 +72,9 @@ static bool read_way(const struct args *args, pir_exact_motion *motion) {
 static bool read_request(const struct args *args, struct request *request) {
     double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1};
     *request = (struct request){.input = pir_pair_input_default(), .turns = args_has(args, "--axis")};
-    if (request->turns == args_has(args, "--way")) {
-        complain("impact: %s", request->turns ? "--axis and --way are both given; one motion is enough"
-                                              : "no motion: give --axis x,y,z or --way x,y,z");
+    const bool goes = args_has(args, "--way");
+    if (!request->turns && !goes) {
+        complain("impact: no motion: give --axis x,y,z, --way x,y,z or both");
         return false;
     }
     if (!args_numbers(args, "--translate", 3, t) || !args_numbers(args, "--quat", 4, q))
@@ -80,7 +84,11 @@ static bool read_request(const struct args *args, struct request *request) {
         return false;
     }
     request->input.pose_p = (pir_pose){.rotation = {q[0], q[1], q[2], q[3]}, .translation = {t[0], t[1], t[2]}};
-    return request->turns ? read_turn(args, &request->motion) : read_way(args, &request->motion);
+    if ((request->turns && !read_turn(args, &request->motion)) || (goes && !read_way(args, &request->motion)))
+        return false;
+    const pir_vec3 way = request->motion.way;
+    request->screws = request->turns && (way.x != 0 || way.y != 0 || way.z != 0);
+    return true;
 }
 
 /* --- the answer --- */
@@ -163,7 +171,7 @@ static bool print_json(const struct args *args, const struct operands *operands,
     if (impact->outcome == PIR_CAST_HIT && impact->steps > 0) {
         json_add_numbers(&json, json.root, "kappa", answer->impact.kappa, 2);
         if (operands->hull[0])
-            json_add_integers(&json, json.root, "polynomial", answer->polynomial, 3);
+            json_add_integers(&json, json.root, "polynomial", answer->polynomial, request->screws ? 4 : 3);
     }
     if (has_place(operands, impact)) {
         add_vector(&json, json.root, "normal", impact->normal);
@@ -188,7 +196,8 @@ static void print_vector(const char *name, pir_vec3 v) {
 static void print_text(const struct args *args, const struct operands *operands, const struct request *request,
                        const struct answer *answer) {
     const pir_impact *impact = &answer->impact.impact;
-    say("%s %s against %s%s: %s\n", args->positional[0], request->turns ? "turning" : "going", args->positional[1],
+    const char *moving = request->screws ? "screwing" : request->turns ? "turning" : "going";
+    say("%s %s against %s%s: %s\n", args->positional[0], moving, args->positional[1],
         operands->hull[0] ? "" : ", as solids", outcomes[impact->outcome]);
     if (operands->hull[0])
         surface_print_notes(operands->surface, 2);
@@ -244,9 +253,11 @@ SUBCOMMAND(impact) {
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     struct answer answer = {.seconds = 0};
-    mpz_inits(answer.polynomial[0], answer.polynomial[1], answer.polynomial[2], NULL);
+    for (int k = 0; k < 4; k++)
+        mpz_init(answer.polynomial[k]);
     const int result = load(args, &operands) ? run(args, &operands, &request, &answer) : EXIT_BAD_INPUT;
-    mpz_clears(answer.polynomial[0], answer.polynomial[1], answer.polynomial[2], NULL);
+    for (int k = 0; k < 4; k++)
+        mpz_clear(answer.polynomial[k]);
     for (int k = 0; k < 2; k++) {
         pir_solid_release(operands.solid[k]);
         pir_polytope_release(operands.hull[k]);

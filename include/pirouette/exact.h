@@ -196,11 +196,12 @@ PIR_API pir_status pir_critical_states_polynomial_exact(const pir_critical_state
 
 /**
  * As pir_pair_impact (impact.h); on a hit after the start also the quadratic that the κ of the contact is a root of,
- * as of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Else, three zeros.
+ * as of pir_events_polynomial_exact: that at which it turns while κ falls, of the one or two. Of a screw it is a
+ * cubic, c0·κ³ + c1·κ² + c2·κ + c3. Else, zeros.
  *
  * pair, workspace, input, motion  as of pir_pair_impact.
  * ret_impact                      likewise.
- * ret_coefficients                three initialised integers.
+ * ret_coefficients                three initialised integers, of a screw four.
  *
  * Cost: as of pir_pair_impact, in exact arithmetic at the end.
  *

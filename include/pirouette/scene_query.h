@@ -319,10 +319,10 @@ PIR_API pir_status pir_scene_time_of_impact(pir_scene *scene, uint32_t body, con
                                             pir_impact *ret_impact);
 
 /**
- * When a body of the scene first touches another that it may meet, in a turn about an axis, as a door, or on a way,
- * exactly: the first contact of all pairs of pieces, as pir_pair_impact tells it. All others are at rest. Contacts of
- * two pairs are compared as algebraic numbers; of equal ones that of the lowest number of the other body, then of the
- * lowest pieces, is told.
+ * When a body of the scene first touches another that it may meet, in a turn about an axis, as a door, on a way, or in
+ * a screw, exactly: the first contact of all pairs of pieces, as pir_pair_impact tells it. All others are at rest.
+ * Contacts of two pairs are compared as algebraic numbers; of equal ones that of the lowest number of the other body,
+ * then of the lowest pieces, is told.
  *
  * PIR_CAST_START_INSIDE comes before all: a piece overlaps another at the start. Then comes PIR_CAST_HIT: at time 0
  * where pieces touch at the start and overlap just after it. Pieces that touch at the start and do not, as those of a

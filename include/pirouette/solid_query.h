@@ -122,9 +122,9 @@ PIR_API pir_status pir_solid_query_cast(pir_solid_query *query, pir_workspace *w
                                         const pir_motion *motion, double tolerance, pir_impact *ret_impact);
 
 /**
- * When P first touches Q in a turn about an axis, or on a way, exactly: the first contact of all pairs of pieces, as
- * pir_pair_impact tells it. Contacts of two pairs are compared as algebraic numbers; of equal ones that of the lowest
- * piece of P, then of Q, is told, with its pieces, and with its planes as `steps`.
+ * When P first touches Q in a turn about an axis, on a way, or in a screw, exactly: the first contact of all pairs of
+ * pieces, as pir_pair_impact tells it. Contacts of two pairs are compared as algebraic numbers; of equal ones that of
+ * the lowest piece of P, then of Q, is told, with its pieces, and with its planes as `steps`.
  *
  * PIR_CAST_START_INSIDE is told without a witness, pieces, point and normal, for overlaps are not those of two pieces.
  * Bodies that touch at the start are told by a pair that overlaps just after it, PIR_CAST_HIT at time 0, or, where

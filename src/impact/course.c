@@ -49,7 +49,6 @@ pir_status pir_course_init(pir_course *course, const pir_polytope *const body[2]
         course->body[k] = body[k];
         course->pose[k] = pose[k];
     }
-    course->size = pir_vec_size(course->way);
     course->has_integers = false;
     course->by_exact = 0;
     if (course->turns) {
@@ -57,6 +56,10 @@ pir_status pir_course_init(pir_course *course, const pir_polytope *const body[2]
         const pir_vec3 u = {course->axis.x / most, course->axis.y / most, course->axis.z / most};
         course->unit = pir_vec_scale(u, 1 / pir_vec_length(u));
     }
+    course->advance = (pir_vec3){0, 0, 0};
+    if (course->screws)
+        course->advance = pir_vec_scale(course->way, course->end_kappa / pir_vec_length(course->axis));
+    course->size = pir_vec_size(course->way) + pir_vec_size(course->advance);
     pir_status status = place_body(course, 0);
     if (status != PIR_OK)
         return status;
@@ -76,7 +79,10 @@ pir_vec3 pir_course_direction(const pir_course *course, pir_vec3 x, double phi) 
 }
 
 pir_vec3 pir_course_point(const pir_course *course, pir_vec3 x, double phi) {
-    return course->turns ? pir_course_direction(course, x, phi) : pir_vec_add(x, pir_vec_scale(course->way, tan(phi)));
+    const pir_vec3 turned = pir_course_direction(course, x, phi);
+    if (course->turns && !course->screws)
+        return turned;
+    return pir_vec_add(turned, pir_vec_scale(course->screws ? course->advance : course->way, tan(phi)));
 }
 
 /* Adds `by`·(y·R x), and for a point x of P that goes along, `rate`. */
@@ -128,10 +134,17 @@ pir_plane_rows pir_course_rows(const pir_course *course, const pir_condition *on
     } else {
         rows.h[1] = of_q ? along : -along;
     }
+    if (course->screws) {
+        const pir_vec3 by = course->advance;
+        const double still = pir_vec_dot(n, by);
+        rows.h[1] += of_q ? still : -still;
+        rows.h[2] -= of_q ? 0 : pir_vec_dot(rows.row[1], by);
+        rows.h[3] = of_q ? still : -pir_vec_dot(rows.row[2], by);
+    }
     return rows;
 }
 
-static void form_of_edges(const pir_course *course, const pir_condition *on, double c[3]) {
+static void form_of_edges(const pir_course *course, const pir_condition *on, double c[4]) {
     const pir_polytope *p = course->body[0], *q = course->body[1];
     const pir_vec3 e = course->edge[0][on->p], f = course->edge[1][on->q];
     if (on->kind == PIR_CROSSING) {
@@ -150,6 +163,8 @@ static void form_of_edges(const pir_course *course, const pir_condition *on, dou
     add_product(course, c, pir_vec_cross(a, e), f, -on->side);
     add_product(course, c, e, pir_vec_cross(f, b), on->side);
     add_rest(course, c, 0, -on->side * pir_vec_dot(pir_vec_cross(e, f), course->way));
+    if (course->screws)
+        add_product(course, c + 1, e, pir_vec_cross(f, course->advance), -on->side);
 }
 
 pir_course_form pir_course_form_of(const pir_course *course, const pir_condition *on) {
@@ -157,7 +172,7 @@ pir_course_form pir_course_form_of(const pir_course *course, const pir_condition
         const pir_plane_rows rows = pir_course_rows(course, on);
         return pir_rows_form(&rows, on->kind == PIR_Q_PLANE || on->kind == PIR_Q_SIDE ? on->p : on->q);
     }
-    pir_course_form form = {{0, 0, 0}, PIR_COURSE_BOUND * (on->kind == PIR_CROSSING ? 1 : course->size)};
+    pir_course_form form = {{0, 0, 0, 0}, PIR_COURSE_BOUND * (on->kind == PIR_CROSSING ? 1 : course->size)};
     form_of_edges(course, on, form.c);
     return form;
 }

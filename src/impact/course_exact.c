@@ -120,6 +120,16 @@ static void make_axis(pir_course *course) {
     }
 }
 
+/* The k of a screw's end. */
+static void make_end(pir_course *course) {
+    pir_course_integers *exact = &course->exact;
+    int e;
+    mpz_set_ui(exact->end, (unsigned long)pir_double_split(course->end_kappa, &e));
+    e -= exact->exponent;
+    exact->end_shift = (mp_bitcnt_t)(e < 0 ? -e : 0);
+    mpz_mul_2exp(exact->end, exact->end, (mp_bitcnt_t)(e > 0 ? e : 0));
+}
+
 /*
  * Room for comparisons: with coordinates of b bits and an axis of a, normals have 2b + 4, those of sides 3b + 8, their
  * quadratics 4b + 2a + 16. Ends of motions are doubles, of up to 2200 bits in units of k.
@@ -158,7 +168,9 @@ static void free_integers(pir_course *course) {
         free_points(course, which);
     for (int k = 0; k < 3; k++)
         mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->other[k], NULL);
-    mpz_clear(exact->square);
+    mpz_clears(exact->square, exact->end, NULL);
+    pir_cubic_clear(&exact->cubic);
+    pir_cubic_root_clear(&exact->cubic_root);
     if (exact->limbs != NULL)
         PIR_FREE(course->allocator, exact->limbs, exact->scratch.capacity);
 }
@@ -208,6 +220,11 @@ pir_status pir_course_integers_make(pir_course *course) {
     for (size_t i = 0; i < count[0] + count[1]; i++)
         mpq_init(rational[i]);
     make_axis(course);
+    mpz_init(exact->end);
+    pir_cubic_init(&exact->cubic);
+    pir_cubic_root_init(&exact->cubic_root);
+    if (course->screws)
+        make_end(course);
     bool made = exact->point[0] != NULL && exact->point[1] != NULL;
     if (made) {
         make_scaled(course, rational, count[0]);
@@ -293,7 +310,7 @@ static void normal_of(const pir_course *course, int which, uint32_t facet, spati
 }
 
 /* Adds by·(y·R x). */
-static void add_product(pir_course *course, mpz_t c[3], mpz_t *x, mpz_t *y, int by) {
+static void add_product(pir_course *course, mpz_t *c, mpz_t *x, mpz_t *y, int by) {
     pir_course_integers *exact = &course->exact;
     mpz_t xy, other, last;
     mpz_inits(xy, other, last, NULL);
@@ -316,7 +333,8 @@ static void add_product(pir_course *course, mpz_t c[3], mpz_t *x, mpz_t *y, int 
     mpz_clears(xy, other, last, NULL);
 }
 
-static void exact_of_plane(pir_course *course, const pir_condition *on, mpz_t c[3]) {
+/* `rest`: of a screw, what λ = κ₁/κ is multiplied by. */
+static void exact_of_plane(pir_course *course, const pir_condition *on, mpz_t c[3], mpz_t *rest) {
     const bool of_q = on->kind == PIR_Q_PLANE || on->kind == PIR_Q_SIDE;
     const bool is_side = on->kind == PIR_Q_SIDE || on->kind == PIR_P_SIDE;
     const int own = of_q;
@@ -345,18 +363,23 @@ static void exact_of_plane(pir_course *course, const pir_condition *on, mpz_t c[
         add_product(course, c, n.c, point_of(course, 1, v), 1);
     dot(h, n.c, point_of(course, own, base));
     mpz_sub(c[0], c[0], h);
-    if (course->turns) {
+    if (course->turns)
         mpz_submul(c[2], h, course->exact.square);
-    } else {
-        dot(h, n.c, course->exact.way);
+    dot(h, n.c, course->exact.way);
+    if (!course->turns)
         add_times(c[1], h, of_q ? 1 : -1);
+    if (rest && of_q) {
+        mpz_set(rest[0], h);
+        mpz_mul(rest[2], h, course->exact.square);
+    } else if (rest) {
+        add_product(course, rest, n.c, course->exact.way, -1);
     }
     mpz_clear(h);
     spatial_clear(&n);
     spatial_clear(&along);
 }
 
-static void exact_of_edges(pir_course *course, const pir_condition *on, mpz_t c[3]) {
+static void exact_of_edges(pir_course *course, const pir_condition *on, mpz_t c[3], mpz_t *rest) {
     const pir_polytope *p = course->body[0], *q = course->body[1];
     spatial e, f, other;
     spatial_init(&e);
@@ -375,28 +398,42 @@ static void exact_of_edges(pir_course *course, const pir_condition *on, mpz_t c[
         add_product(course, c, other.c, f.c, -on->side);
         cross(&other, f.c, point_of(course, 1, q->origin[q->edge_half[on->q]]));
         add_product(course, c, e.c, other.c, on->side);
-        if (!course->turns) {
-            mpz_t rate;
-            mpz_init(rate);
-            cross(&other, e.c, f.c);
-            dot(rate, other.c, course->exact.way);
-            add_times(c[1], rate, -on->side);
-            mpz_clear(rate);
-        }
+        cross(&other, f.c, course->exact.way);
+        if (!course->turns)
+            add_product(course, c + 1, e.c, other.c, -on->side);
+        if (rest)
+            add_product(course, rest, e.c, other.c, -on->side);
     }
     spatial_clear(&e);
     spatial_clear(&f);
     spatial_clear(&other);
 }
 
-void pir_course_exact(pir_course *course, const pir_condition *on, mpz_t dst[3]) {
+static void make_exact(pir_course *course, const pir_condition *on, mpz_t dst[3], mpz_t *rest) {
     course->by_exact++;
     for (int k = 0; k < 3; k++)
         mpz_set_ui(dst[k], 0);
     if (on->kind == PIR_CROSSING || on->kind == PIR_EDGES)
-        exact_of_edges(course, on, dst);
+        exact_of_edges(course, on, dst, rest);
     else
-        exact_of_plane(course, on, dst);
+        exact_of_plane(course, on, dst, rest);
+}
+
+void pir_course_exact(pir_course *course, const pir_condition *on, mpz_t dst[3]) {
+    make_exact(course, on, dst, NULL);
+}
+
+void pir_course_cubic(pir_course *course, const pir_condition *on, pir_cubic *dst) {
+    mpz_t rest[3];
+    mpz_inits(rest[0], rest[1], rest[2], NULL);
+    make_exact(course, on, dst->c, rest);
+    mpz_set_ui(dst->c[3], 0);
+    for (int i = 0; i < 3; i++)
+        mpz_mul_2exp(dst->c[i], dst->c[i], course->exact.end_shift);
+    for (int i = 0; i < 3; i++)
+        mpz_addmul(dst->c[i + 1], course->exact.end, rest[i]);
+    mpz_clears(rest[0], rest[1], rest[2], NULL);
+    pir_cubic_trim(dst);
 }
 
 pir_quadratic pir_course_view(mpz_t c[3]) {
@@ -410,20 +447,27 @@ pir_status pir_course_polynomial(pir_course *course, const pir_condition *condit
     const pir_status status = pir_course_integers_make(course);
     if (status != PIR_OK)
         return status;
-    pir_course_exact(course, condition, dst);
+    const int degree = course->screws ? 3 : 2;
+    if (course->screws) {
+        pir_course_cubic(course, condition, &course->exact.cubic);
+        for (int k = 0; k < 4; k++)
+            mpz_set(dst[k], course->exact.cubic.c[k]);
+    } else {
+        pir_course_exact(course, condition, dst);
+    }
     if (!course->turns) { // κ is a factor
         mpz_swap(dst[1], dst[2]);
         mpz_swap(dst[0], dst[1]);
     }
     // from k = κ·2^-e to κ
     const int e = course->exact.exponent;
-    for (int k = 0; k < 3; k++)
-        mpz_mul_2exp(dst[k], dst[k], (mp_bitcnt_t)(e > 0 ? k * e : (2 - k) * -e));
+    for (int k = 0; k <= degree; k++)
+        mpz_mul_2exp(dst[k], dst[k], (mp_bitcnt_t)(e > 0 ? k * e : (degree - k) * -e));
     mpz_t common;
     mpz_init(common);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k <= degree; k++)
         mpz_gcd(common, common, dst[k]);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k <= degree; k++)
         mpz_divexact(dst[k], dst[k], common);
     mpz_clear(common);
     return PIR_OK;
@@ -435,8 +479,14 @@ pir_status pir_pair_impact_exact(pir_pair *pair, pir_workspace *workspace, const
     if (ret_coefficients == NULL)
         return PIR_ERR_ARGUMENT;
     const pir_status status = pir_pair_impact_run(pair, workspace, input, motion, ret_impact, ret_coefficients);
-    if (status == PIR_OK && mpz_sgn(ret_coefficients[mpz_sgn(ret_coefficients[0]) != 0 ? 0 : 1]) < 0)
-        for (int k = 0; k < 3; k++)
+    if (status != PIR_OK)
+        return status;
+    const int count = pir_exact_motion_screws(motion) ? 4 : 3;
+    int first = 0;
+    while (first < count - 1 && mpz_sgn(ret_coefficients[first]) == 0)
+        first++;
+    if (mpz_sgn(ret_coefficients[first]) < 0)
+        for (int k = 0; k < count; k++)
             mpz_neg(ret_coefficients[k], ret_coefficients[k]);
-    return status;
+    return PIR_OK;
 }

@@ -4,19 +4,63 @@
 
 #include "base/memory.h"
 #include "impact/course.h"
+#include "impact/pair_impact.h"
 
-void pir_first_contact_init(pir_first_contact *first, const pir_allocator *allocator, pir_contact_asker *ask,
-                            void *context) {
+void pir_first_contact_init(pir_first_contact *first, const pir_allocator *allocator, const pir_exact_motion *motion,
+                            pir_contact_asker *ask, void *context) {
     *first = (pir_first_contact){.allocator = allocator, .ask = ask, .context = context};
-    mpz_inits(first->root[0], first->root[1], first->root[2], first->other[0], first->other[1], first->other[2], NULL);
+    first->screws = pir_exact_motion_screws(motion);
+    for (int k = 0; k < 4; k++)
+        mpz_inits(first->root[k], first->other[k], NULL);
 }
 
 void pir_first_contact_finish(pir_first_contact *first) {
-    mpz_clears(first->root[0], first->root[1], first->root[2], first->other[0], first->other[1], first->other[2], NULL);
+    for (int k = 0; k < 4; k++)
+        mpz_clears(first->root[k], first->other[k], NULL);
 }
 
-/* The sign of the κ in `other` less that of the best, exactly. */
-static pir_status compare_roots(pir_first_contact *first, int *ret_order) {
+/* dst = the greatest root of a cubic in κ, which is above 0, between two doubles. */
+static bool make_cubic_root(pir_cubic_root *dst, mpz_t c[4], const double kappa[2]) {
+    pir_cubic f;
+    mpz_t end[2];
+    int e[2];
+    pir_cubic_init(&f);
+    for (int k = 0; k < 4; k++)
+        mpz_set(f.c[k], c[3 - k]);
+    pir_cubic_trim(&f);
+    for (int k = 0; k < 2; k++) {
+        mpz_init(end[k]);
+        const double inside = fmin(kappa[k], 0x1.fffffffffffffp1023), m = frexp(inside, &e[k]);
+        mpz_set_d(end[k], ldexp(m, 53));
+        e[k] -= 53;
+    }
+    // the lower end is left out of the interval, which is made wider by one last bit
+    mpz_sub_ui(end[0], end[0], 1);
+    const int low = e[0] < e[1] ? e[0] : e[1], least = low < 0 ? low : 0;
+    for (int k = 0; k < 2; k++)
+        mpz_mul_2exp(end[k], end[k], (mp_bitcnt_t)(e[k] - least));
+    const bool found = pir_cubic_root_within(dst, &f, end[0], end[1], (mp_bitcnt_t)-least, PIR_LAST_ROOT);
+    mpz_clears(end[0], end[1], NULL);
+    pir_cubic_clear(&f);
+    return found;
+}
+
+static pir_status compare_cubic_roots(pir_first_contact *first, const pir_exact_impact *hit, int *ret_order) {
+    pir_cubic_root other, best;
+    pir_cubic_root_init(&other);
+    pir_cubic_root_init(&best);
+    const bool found =
+        make_cubic_root(&other, first->other, hit->kappa) && make_cubic_root(&best, first->root, first->best.kappa);
+    *ret_order = found ? pir_cubic_root_compare(&other, &best) : 0;
+    pir_cubic_root_clear(&other);
+    pir_cubic_root_clear(&best);
+    return found ? PIR_OK : PIR_ERR_INTERNAL;
+}
+
+/* The sign of the κ in `other`, that of a hit, less that of the best, exactly. */
+static pir_status compare_roots(pir_first_contact *first, const pir_exact_impact *hit, int *ret_order) {
+    if (first->screws)
+        return compare_cubic_roots(first, hit, ret_order);
     const pir_quadratic other = pir_course_view(first->other), best = pir_course_view(first->root);
     size_t limbs = 1;
     for (int k = 0; k < 3; k++) {
@@ -44,7 +88,7 @@ static pir_status order_of(pir_first_contact *first, const pir_exact_impact *hit
     first->has_root = status == PIR_OK;
     if (status == PIR_OK)
         status = first->ask(first->context, &hit->impact, first->other);
-    return status == PIR_OK ? compare_roots(first, ret_order) : status;
+    return status == PIR_OK ? compare_roots(first, hit, ret_order) : status;
 }
 
 static bool is_lower(const pir_impact *a, const pir_impact *b) {

@@ -13,7 +13,7 @@
 
 #include <pirouette/impact.h>
 
-/* The pair of an impact, asked again for its quadratic. */
+/* The pair of an impact, asked again for its polynomial. */
 typedef pir_status pir_contact_asker(void *context, const pir_impact *of, mpz_t *ret_root);
 
 typedef struct pir_first_contact {
@@ -22,12 +22,13 @@ typedef struct pir_first_contact {
     void *context;
     bool any; /* whether there is a best */
     pir_exact_impact best;
+    bool screws;   /* contacts are roots of cubics, of the first coefficient first, else of quadratics */
     bool has_root; /* whether `root` is the best's */
-    mpz_t root[3], other[3];
+    mpz_t root[4], other[4];
 } pir_first_contact;
 
-void pir_first_contact_init(pir_first_contact *first, const pir_allocator *allocator, pir_contact_asker *ask,
-                            void *context);
+void pir_first_contact_init(pir_first_contact *first, const pir_allocator *allocator, const pir_exact_motion *motion,
+                            pir_contact_asker *ask, void *context);
 void pir_first_contact_finish(pir_first_contact *first);
 
 /*

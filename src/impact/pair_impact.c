@@ -40,6 +40,8 @@ static pir_pose pose_of_now(const impact_job *job) {
     pose.translation = pir_vec_sub(pose.translation, course->pivot);
     pose = pir_pose_compose(turn, pose);
     pose.translation = pir_vec_add(pose.translation, course->pivot);
+    if (course->screws)
+        pose.translation = pir_vec_add(pose.translation, pir_vec_scale(course->advance, tan(phi)));
     return pose;
 }
 
@@ -213,24 +215,34 @@ pir_status pir_exact_motion_check(const pir_exact_motion *motion) {
         return PIR_ERR_NOT_FINITE;
     const bool turns = motion->degrees != 0, goes = pir_vec_size(motion->way) > 0;
     const double most = fmax(fmax(fabs(motion->axis.x), fabs(motion->axis.y)), fabs(motion->axis.z));
-    if (fabs(motion->degrees) > 360 || (turns && (goes || most == 0)))
+    const bool too_far = fabs(motion->degrees) > 360 || (goes && fabs(motion->degrees) >= 180);
+    if (too_far || (turns && most == 0))
         return PIR_ERR_ARGUMENT;
+    if (turns && goes && fabs(motion->degrees) < 0x1p-20)
+        return PIR_ERR_LIMIT;
     return turns && !(most >= 0x1p-400 && most <= 0x1p400) ? PIR_ERR_LIMIT : PIR_OK;
 }
 
+bool pir_exact_motion_screws(const pir_exact_motion *motion) {
+    return motion->degrees != 0 && pir_vec_size(motion->way) > 0;
+}
+
 static void set_end(pir_impact_search *search, const pir_exact_motion *motion) {
-    const bool turns = search->course.turns;
+    pir_course *course = &search->course;
+    const bool turns = course->turns;
     search->end.kind = PIR_MOMENT_END;
     search->end.phi = turns ? fabs(motion->degrees) / DEGREE / 2 : atan2(1, 1);
     search->end.slack = 0x1p-49;
     const double length = turns ? pir_vec_length(motion->axis) : 1;
-    search->end_kappa = !turns                         ? 1
-                        : fabs(motion->degrees) == 360 ? -INFINITY
-                        : fabs(motion->degrees) == 180 ? 0
-                                                       : length / tan(search->end.phi);
+    const double degrees = fabs(motion->degrees);
+    course->end_kappa = !turns           ? 1
+                        : degrees == 360 ? -INFINITY
+                        : degrees == 180 ? 0
+                        : degrees == 90  ? length // which the tangent of a double near to an eighth of a turn misses
+                                         : length / tan(search->end.phi);
     // a turn so short that its κ is no double has none before its end
-    if (search->end_kappa > 0x1.fffffffffffffp1023)
-        search->end_kappa = 0x1.fffffffffffffp1023;
+    if (course->end_kappa > 0x1.fffffffffffffp1023)
+        course->end_kappa = 0x1.fffffffffffffp1023;
 }
 
 pir_status pir_pair_impact_run(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
@@ -250,17 +262,18 @@ pir_status pir_pair_impact_run(pir_pair *pair, pir_workspace *workspace, const p
     course->axis = pir_vec_scale(motion->axis, motion->degrees < 0 ? -1 : 1);
     course->pivot = course->turns ? motion->pivot : (pir_vec3){0, 0, 0};
     course->way = motion->way;
+    course->screws = pir_exact_motion_screws(motion);
+    set_end(&job.search, motion);
     pir_exact_impact impact = {{0}, {0, 0}, 0};
     const pir_polytope *const body[2] = {pair->p, pair->q};
     const pir_pose pose[2] = {input->pose_p, input->pose_q};
     if ((status = pir_course_init(course, body, pose)) != PIR_OK)
         return status;
-    set_end(&job.search, motion);
     pir_search_go_to(&job.search, (pir_moment){.kind = PIR_MOMENT_FIRST});
     status = run(&job, &impact);
     const bool after_start = impact.impact.outcome == PIR_CAST_HIT && job.search.planes > 0;
     if (status == PIR_OK && ret_coefficients != NULL) {
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < (course->screws ? 4 : 3); k++)
             mpz_set_ui(ret_coefficients[k], 0);
         if (after_start)
             status = pir_course_polynomial(course, &job.search.now.root, ret_coefficients);

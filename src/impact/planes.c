@@ -22,10 +22,11 @@ static void try_facet(const pir_impact_search *search, pir_condition_kind kind, 
     const pir_condition plane = {.kind = kind, .p = p, .q = q};
     const pir_plane_rows rows = pir_course_rows(&search->course, &plane);
     const double ss = search->sigma * search->sigma, st = search->sigma * search->tau, tt = search->tau * search->tau;
-    // the distance is −row·x − h of one row at this moment
+    // the distance is −row·x − h of one row at this moment; of a screw the form over σ
     const pir_vec3 row = pir_vec_add(pir_vec_add(pir_vec_scale(rows.row[0], -ss), pir_vec_scale(rows.row[1], -st)),
                                      pir_vec_scale(rows.row[2], -tt));
-    const double h = -(rows.h[0] * ss + rows.h[1] * st + rows.h[2] * tt);
+    const double last = search->course.screws ? rows.h[3] * tt * (search->tau / search->sigma) : 0;
+    const double h = -(rows.h[0] * ss + rows.h[1] * st + rows.h[2] * tt + last);
     double gap = pir_vec_dot(row, rows.point[kind == PIR_Q_PLANE ? p : q]) + h;
     const uint32_t count = pir_plane_count(search, &plane);
     for (uint32_t i = 0; i < count && gap > best->gap; i++)

@@ -15,6 +15,8 @@
 
 #include <float.h>
 
+#include "impact/screw.h"
+
 #define PI 3.14159265358979323846
 
 /* φ from its functions, and directions from φ, are within this. */
@@ -24,14 +26,18 @@ static double value_at(const pir_course_form *form, double s, double t) {
     return form->c[0] * s * s + form->c[1] * s * t + form->c[2] * t * t;
 }
 
+static double cubic_at(const pir_course_form *form, double s, double t) {
+    return s * value_at(form, s, t) + form->c[3] * t * t * t;
+}
+
 static double size_of(const pir_course_form *form) {
-    return fabs(form->c[0]) + fabs(form->c[1]) + fabs(form->c[2]);
+    return fabs(form->c[0]) + fabs(form->c[1]) + fabs(form->c[2]) + fabs(form->c[3]);
 }
 
 /* --- signs --- */
 
 int pir_search_form_sign(const pir_impact_search *search, const pir_course_form *form) {
-    const double value = value_at(form, search->sigma, search->tau);
+    const double value = (search->course.screws ? cubic_at : value_at)(form, search->sigma, search->tau);
     const double error = 3 * form->bound + 4 * size_of(form) * (search->now.slack + ANGLE_ERROR);
     return value > error ? 1 : value < -error ? -1 : 2;
 }
@@ -63,6 +69,8 @@ int pir_search_sign(pir_impact_search *search, const pir_condition *on, pir_sign
     if (!make_integers(search))
         return 1;
     pir_course *course = &search->course;
+    if (course->screws)
+        return pir_screw_sign(search, on, when);
     pir_course_exact(course, on, course->exact.other);
     const pir_quadratic view = pir_course_view(course->exact.other);
     if (search->now.kind != PIR_MOMENT_FIRST) {
@@ -131,7 +139,7 @@ static int exit_by_filter(const pir_impact_search *search, const pir_course_form
 static pir_quadratic end_quadratic(pir_impact_search *search) {
     pir_course_integers *exact = &search->course.exact;
     pir_quadratic end = pir_quadratic_take(&exact->scratch, exact->double_limbs);
-    pir_quadratic_of_double(&end, search->end_kappa, exact->exponent);
+    pir_quadratic_of_double(&end, search->course.end_kappa, exact->exponent);
     return end;
 }
 
@@ -170,7 +178,7 @@ static void exit_exactly(pir_impact_search *search, const pir_moment *at, pir_mo
         const pir_quadratic other = pir_course_view(first);
         order = pir_quadratic_compare(&view, &other, scratch);
         mpz_clears(first[0], first[1], first[2], NULL);
-    } else if (isfinite(search->end_kappa)) {
+    } else if (isfinite(search->course.end_kappa)) {
         const pir_quadratic other = end_quadratic(search);
         order = pir_quadratic_compare(&view, &other, scratch) >= 0;
     }
@@ -210,7 +218,9 @@ pir_moment pir_search_exit(pir_impact_search *search, const pir_condition *plane
         }
         const pir_condition on = pir_plane_condition(plane, i);
         const pir_course_form form = is_facet ? pir_rows_form(&rows, i) : pir_course_form_of(&search->course, &on);
-        if (!stays_negative(search, &form, phi, x, y))
+        if (search->course.screws)
+            pir_screw_take_exit(search, &form, &on, &best);
+        else if (!stays_negative(search, &form, phi, x, y))
             take_exit(search, &form, &on, &best);
     }
     return best;
@@ -226,6 +236,10 @@ void pir_search_go_to(pir_impact_search *search, pir_moment moment) {
 void pir_search_refine(pir_impact_search *search) {
     if (search->now.slack <= 0x1p-33 || !make_integers(search))
         return;
+    if (search->course.screws) {
+        pir_screw_refine(search);
+        return;
+    }
     const pir_quadratic root = root_of_now(search);
     search->now.phi = phi_of(&search->course, &root, &search->course.exact.scratch);
     search->now.slack = 0x1p-46;

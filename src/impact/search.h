@@ -17,14 +17,14 @@ typedef struct pir_moment {
     enum { PIR_MOMENT_FIRST, PIR_MOMENT_END, PIR_MOMENT_ROOT } kind;
     double phi, slack;
     pir_condition root;
+    int ordinal; /* of a screw, where not 0: the root is that one of its condition's after the beginning */
 } pir_moment;
 
 typedef struct pir_impact_search {
     pir_course course;
     pir_moment now, end;
     double sigma, tau; /* of now */
-    double end_kappa;  /* of the end, −∞ for a full turn */
-    bool has_root;     /* the integers `root` are now's */
+    bool has_root;     /* the integers `root`, or `cubic_root`, are now's */
     pir_status status;
     uint32_t planes;
 } pir_impact_search;

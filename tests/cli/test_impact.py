@@ -10,9 +10,10 @@ from test_solid import prism
 
 
 def value(coefficients, kappa):
-    c0, c1, c2 = (int(c) for c in coefficients)
-    x = Fraction(kappa)
-    return (c0 * x + c1) * x + c2
+    total = Fraction(0)
+    for c in coefficients:
+        total = total * Fraction(kappa) + int(c)
+    return total
 
 
 class Impact(CommandTest):
@@ -86,6 +87,22 @@ class Impact(CommandTest):
         rest = self.data("impact", "shape:cube", "shape:cube", "--translate", "3,0,0", "--way", "0,0,0")
         self.assertEqual(rest["outcome"], "at rest")
 
+    def test_a_screw(self):
+        # the lower side comes down to the upper one, wherever it has turned to: after 2/3 of the way
+        screw = "shape:cube", "shape:cube", "--translate=0,0,2.5", "--axis=0,0,3", "--angle=90", "--way=0,0,-2.25"
+        told = self.data("impact", *screw)
+        self.hold(told)
+        self.assertEqual((told["outcome"], told["normal"], len(told["polynomial"])), ("hit", [0, 0, 1], 4))
+        half = math.atan(2 / 3 * math.tan(math.pi / 4))
+        self.assertAlmostEqual(told["degrees"], math.degrees(2 * half), places=9)
+        self.assertAlmostEqual(told["fraction"], told["degrees"] / 90, places=12)
+        solid = self.data("impact", *screw, "--solid")
+        self.assertEqual([solid[k] for k in ("outcome", "degrees", "kappa")], [told[k] for k in
+                                                                             ("outcome", "degrees", "kappa")])
+        self.assertRegex(self.good("impact", *screw), "^shape:cube screwing against shape:cube: hit\n")
+        turn = self.data("impact", *screw[:-1], "--way=0,0,0")
+        self.assertEqual(turn["outcome"], "miss")
+
     def test_solids_are_not_their_hulls(self):
         run = "impact", "shape:box?x=0.5&y=0.5&z=0.5", self.file("l.off", prism()), "--translate", "2.5,2.5,0.5"
         told = self.data(*run, "--way=-3,0,0", "--solid")
@@ -105,7 +122,8 @@ class Impact(CommandTest):
     def test_refusals(self):
         pair = "impact", "shape:cube", "shape:cube"
         self.bad(*pair, says="no motion")
-        self.bad(*pair, "--axis", "0,0,1", "--way", "1,0,0", says="one motion is enough")
+        self.bad(*pair, "--axis", "0,0,1", "--way", "1,0,0", says="below 180 degrees")
+        self.bad(*pair, "--axis", "0,0,1", "--way", "1,0,0", "--angle=-180", says="below 180 degrees")
         self.bad(*pair, "--axis", "0,0,0", says="zero vector")
         self.bad(*pair, "--axis", "1e300,0,0", says="impact: ")
         self.bad(*pair, "--axis", "0,0,1", "--angle", "361", says="--angle")

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * First contacts in scenes against a loop over all pairs of pieces, each asked by a pair made for it. Which of two
- * contacts comes first is told by their quadratics in 400 bits. Half of the scenes are on a grid, where many contacts
+ * contacts comes first is told by their polynomials in 1000 bits. Half of the scenes are on a grid, where many contacts
  * come at once; a third has a floor of triangles.
  *
  * PIR_TEST_SCENES sets how many scenes there are, each with MOTIONS motions.
@@ -19,7 +19,7 @@
 #include "support/bodies.h"
 #include "support/memory.h"
 
-enum { BODIES = 14, PIECES = 3, MOTIONS = 6, BITS = 400, TRIANGLES = 8 };
+enum { BODIES = 14, PIECES = 3, MOTIONS = 6, BITS = 1000, TRIANGLES = 8 };
 
 typedef struct thing {
     pir_body_options options;
@@ -39,7 +39,8 @@ typedef struct crowd {
 typedef struct candidate {
     pir_exact_impact impact;
     uint32_t body; /* its place in the list */
-    mpz_t c[3];
+    mpz_t c[4];
+    bool is_cubic;
 } candidate;
 
 static struct { unsigned outcome[8], at_start, ties, triangles, refused; } seen;
@@ -143,8 +144,35 @@ static int rank_of(const pir_impact *impact) {
                                             : outcome == PIR_CAST_RECEDING;
 }
 
+/* The root of a cubic that is in the interval: by Newton's steps, of which each halves the error at a double root. */
+static void cubic_root_of(mpf_t root, const candidate *c) {
+    mpf_t value, slope, term;
+    mpf_inits(value, slope, term, NULL);
+    mpf_set_d(root, 0.5 * (c->impact.kappa[0] + c->impact.kappa[1]));
+    for (int step = 0; step < BITS; step++) {
+        mpf_set_ui(value, 0);
+        mpf_set_ui(slope, 0);
+        for (int i = 0; i < 4; i++) {
+            mpf_mul(slope, slope, root);
+            mpf_add(slope, slope, value);
+            mpf_mul(value, value, root);
+            mpf_set_z(term, c->c[i]);
+            mpf_add(value, value, term);
+        }
+        if (mpf_sgn(value) == 0 || mpf_sgn(slope) == 0)
+            break;
+        mpf_div(term, value, slope);
+        mpf_sub(root, root, term);
+    }
+    mpf_clears(value, slope, term, NULL);
+}
+
 /* The root of the quadratic that is in the interval. */
 static void root_of(mpf_t root, candidate *c) {
+    if (c->is_cubic) {
+        cubic_root_of(root, c);
+        return;
+    }
     mpf_t d, a, other;
     mpf_inits(d, a, other, NULL);
     mpf_set_z(a, c->c[1]);
@@ -219,6 +247,7 @@ static void ask_pair(const thing *own, uint32_t i, const thing *other, uint32_t 
     input.pose_p = own->options.pose;
     input.pose_q = other->options.pose;
     assert_int_equal(pir_pair_impact_exact(pair, workspace, &input, motion, &ret->impact, ret->c), PIR_OK);
+    ret->is_cubic = motion->degrees != 0 && (motion->way.x != 0 || motion->way.y != 0 || motion->way.z != 0);
     ret->impact.impact.piece_p = i;
     ret->impact.impact.piece_q = j;
     pir_pair_destroy(pair);
@@ -257,8 +286,11 @@ static pir_exact_motion motion_of(test_random *random, bool aligned) {
     pir_exact_motion motion = {.axis = aligned ? even[test_random_below(random, 5)] : test_random_direction(random),
                                .pivot = place_of(random, aligned)};
     motion.degrees = aligned ? 90 * test_random_between(random, -4, 4) : 360 * test_random_unit(random);
-    if (motion.degrees == 0 || test_random_below(random, 3) == 0) {
-        motion.degrees = 0;
+    const bool screws = test_random_below(random, 3) == 0;
+    if (screws)
+        motion.degrees = aligned ? 45 * test_random_between(random, 1, 3) : 1 + 175 * test_random_unit(random);
+    if (motion.degrees == 0 || screws || test_random_below(random, 3) == 0) {
+        motion.degrees = screws ? motion.degrees : 0;
         motion.way = (pir_vec3){test_random_between(random, -8, 8), test_random_between(random, -8, 8),
                                 test_random_between(random, -6, 6)};
     }
@@ -310,7 +342,7 @@ static void contacts_are_the_first_of_all_pairs(void **state) {
     candidate best[2];
     mpf_set_default_prec(BITS);
     for (int k = 0; k < 2; k++)
-        mpz_inits(best[k].c[0], best[k].c[1], best[k].c[2], NULL);
+        mpz_inits(best[k].c[0], best[k].c[1], best[k].c[2], best[k].c[3], NULL);
     for (uint64_t i = 0; i < count; i++) {
         test_random random = test_random_case("scene contacts", i);
         crowd c;
@@ -322,7 +354,7 @@ static void contacts_are_the_first_of_all_pairs(void **state) {
         clear(&c);
     }
     for (int k = 0; k < 2; k++)
-        mpz_clears(best[k].c[0], best[k].c[1], best[k].c[2], NULL);
+        mpz_clears(best[k].c[0], best[k].c[1], best[k].c[2], best[k].c[3], NULL);
     print_message("%u hits, %u of them at the start, %u misses, %u receding, %u inside; %u ties, %u with triangles, "
                   "%u refused\n",
                   seen.outcome[PIR_CAST_HIT], seen.at_start, seen.outcome[PIR_CAST_MISS],

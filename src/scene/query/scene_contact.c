@@ -5,7 +5,8 @@
  *
  * On a way the tree is asked along the box that moves. In a turn it is asked with a box around all of it: a point that
  * turns by θ about an axis, no farther than r from the pivot, stays in the ball about the pivot and goes no farther
- * than min(θ, 2)·r. Pieces farther than the body has gone at the first contact so far are left out.
+ * than min(θ, 2)·r. In a screw that box moves along the way. Pieces farther than the body has gone at the first
+ * contact so far are left out.
  */
 #include "impact/first_contact.h"
 #include "impact/pair_impact.h"
@@ -51,7 +52,8 @@ static bool is_met(const contact_job *job) {
 /* No point of the piece goes farther in a turn until the first contact so far, or the end. */
 static double gone(const contact_job *job) {
     const double degrees = is_met(job) ? job->first.best.degrees : fabs(job->motion->degrees);
-    return fmin(2, degrees * RADIAN + TOLD) * job->radius + job->error;
+    const double way = pir_vec_length(job->motion->way);
+    return fmin(2, degrees * RADIAN + TOLD) * job->radius + way + job->error;
 }
 
 static void set_until(contact_job *job) {
@@ -252,7 +254,7 @@ pir_status pir_scene_first_contact(pir_scene *scene, uint32_t id, const pir_exac
                                           .piece_q = PIR_SCENE_NONE},
                                .kappa = {HUGE_VAL, HUGE_VAL},
                                .degrees = fabs(motion->degrees)};
-    pir_first_contact_init(&job.first, &scene->allocator, ask_again, &job);
+    pir_first_contact_init(&job.first, &scene->allocator, motion, ask_again, &job);
     status = look_from_pieces(&job);
     if (status == PIR_OK) {
         impact = job.first.any ? job.first.best : impact;

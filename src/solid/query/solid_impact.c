@@ -6,7 +6,8 @@
  * just after a touching start exactly where those of two pieces do.
  *
  * A pair farther apart at the start than a point of P goes until a time has no contact up to it. A point that turns by
- * θ about an axis, no farther than r from the pivot, goes no farther than min(θ, 2)·r from its start.
+ * θ about an axis, no farther than r from the pivot, goes no farther than min(θ, 2)·r from its start; in a screw by
+ * at most the way farther.
  *
  * Invariant: of the pairs that were asked the first contact is the best, and of equal ones that of the lowest pieces.
  */
@@ -36,7 +37,7 @@ static double gone_at_best(const impact_call *call) {
     if (motion->degrees == 0)
         return fmin(1, (best ? best->impact.time : 1) + 0x1p-20) * pir_vec_length(motion->way) + call->error;
     const double degrees = best ? best->degrees : fabs(motion->degrees);
-    return fmin(2, degrees * RADIAN + 0x1p-20) * call->radius + call->error;
+    return fmin(2, degrees * RADIAN + 0x1p-20) * call->radius + pir_vec_length(motion->way) + call->error;
 }
 
 static pir_status ask_pair(impact_call *call, uint32_t i, uint32_t j, pir_exact_impact *ret_impact, mpz_t *root) {
@@ -111,7 +112,7 @@ pir_status pir_solid_query_impact(pir_solid_query *query, pir_workspace *workspa
         return status;
     const bool rests = motion->degrees == 0 && pir_vec_size(motion->way) == 0;
     pir_exact_impact impact = {.kappa = {INFINITY, INFINITY}};
-    pir_first_contact_init(&call.first, &query->allocator, ask_again, &call);
+    pir_first_contact_init(&call.first, &query->allocator, motion, ask_again, &call);
     set_bounds(&call);
     if (state == PIR_INSIDE) {
         impact.impact.outcome = PIR_CAST_START_INSIDE;
