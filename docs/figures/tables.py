@@ -243,6 +243,15 @@ def gradients(r):
     return markdown(["bodies", "motion", ">distance", ">with its gradient", ">and Hessian", ">active set"], rows)
 
 
+# ---- motion.md -------------------------------------------------------------------------------------------------------
+
+
+def impacts(r):
+    rows = [[f"{row['motion']}, {row['bodies']}", row["engine"], *(count(row[what]) for what in (
+        "hits", "early", "late", "missed")), f"{float(row['median_ns']) / 1e3:.1f}"] for row in r.impacts.rows]
+    return markdown(["motion, bodies", "engine", ">hits", ">early", ">late", ">missed", ">µs"], rows)
+
+
 # ---- scale.md --------------------------------------------------------------------------------------------------------
 
 
@@ -406,6 +415,5 @@ def solid_track(r):
 
 TABLES = {function.__name__: function for function in (
     pairs, pairs_motions, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts,
-    mesh_sliding,
-    scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, scale, pile, pile_reuse, terrain_reuse, slices,
-    slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}
+    mesh_sliding, scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, impacts, scale, pile, pile_reuse,
+    terrain_reuse, slices, slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}
