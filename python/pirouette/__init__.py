@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from ._check import Error, FileError, InputError, InUse, NotConvex, OutOfMemory
 from ._cspaces import BLOCKED, FREE, HAS_SLICES, UNKNOWN, Configurations, CSpace, Segments
+from ._motions import CriticalMap, FirstContact, Sweep
 from ._native import ffi as _ffi
 from ._native import lib as _lib
 from ._pairs import BAD, BOUNDARY, INSIDE, OUTSIDE, ActiveGradients, ActiveSet, Contacts, Distances, Impact, Pair
@@ -26,12 +27,12 @@ __version__: str = _ffi.string(_lib.pir_version()).decode()
 
 __all__ = [
     "ActiveGradients", "ActiveSet", "BAD", "BEGAN", "BLOCKED", "BOUNDARY", "BodyState", "CSpace",
-    "Configurations", "Contacts", "Depths", "Distances", "ENDED", "Error", "Events", "FREE", "Facets",
-    "FileError", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse", "InputError", "LiveMesh", "Mass",
-    "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest", "NotConvex", "OUTSIDE", "OutOfMemory",
-    "PERSISTED", "Pair", "Penetrations", "Pieces", "Plan", "Polytope", "RayHits", "Scene", "SceneHits",
-    "SceneImpacts", "Segments", "Shape", "Solid", "SolidContacts", "SolidPair", "TriMesh", "TurnEvent",
-    "TurnEvents", "UNKNOWN", "plan",
+    "Configurations", "Contacts", "CriticalMap", "Depths", "Distances", "ENDED", "Error", "Events", "FREE",
+    "Facets", "FileError", "FirstContact", "HAS_SLICES", "HeightField", "INSIDE", "Impact", "InUse",
+    "InputError", "LiveMesh", "Mass", "Mesh", "MeshDistances", "MeshPair", "MinkowskiSum", "Nearest",
+    "NotConvex", "OUTSIDE", "OutOfMemory", "PERSISTED", "Pair", "Penetrations", "Pieces", "Plan",
+    "Polytope", "RayHits", "Scene", "SceneHits", "SceneImpacts", "Segments", "Shape", "Solid",
+    "SolidContacts", "SolidPair", "Sweep", "TriMesh", "TurnEvent", "TurnEvents", "UNKNOWN", "plan",
 ]
 
 # Errors are told by the package's name.

@@ -2,6 +2,7 @@
 """Pairs: states, distances and contacts of two polytopes at many poses."""
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, Callable, NamedTuple, Optional, Tuple
 
@@ -10,6 +11,7 @@ import numpy.typing as npt
 
 from ._arrays import Bools, Bytes, Floats, dtype_of, fail_at, number, pointer, poses, room, whole
 from ._check import Handle, InputError, check, error
+from ._motions import OUTCOMES, FirstContact, Sweep, exact_motion, first_contact_of, input_at, sweep_by
 from ._native import ffi, lib
 from ._polytopes import Body, Polytope, as_polytope
 
@@ -60,15 +62,9 @@ class Impact(NamedTuple):
     point: Floats
 
 
-_OUTCOMES = {
-    lib.PIR_CAST_HIT: "hit", lib.PIR_CAST_MISS: "miss", lib.PIR_CAST_RECEDING: "receding",
-    lib.PIR_CAST_START_INSIDE: "inside", lib.PIR_CAST_AT_REST: "at rest", lib.PIR_CAST_STEP_LIMIT: "step limit",
-}
-
-
 def impact_of(found: Any) -> Impact:
     normal, point = found.normal, found.point
-    return Impact(_OUTCOMES[found.outcome], found.time, np.array([normal.x, normal.y, normal.z]),
+    return Impact(OUTCOMES[found.outcome], found.time, np.array([normal.x, normal.y, normal.z]),
                   np.array([point.x, point.y, point.z]))
 
 
@@ -302,6 +298,28 @@ class Pair(Handle):
             check(lib.py_pair_impact(pair, workspace, pointer(p), pointer(q), motion, limit, found),
                   "tolerance or pose")
         return impact_of(found)
+
+    def first_contact(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                      axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0, pivot: npt.ArrayLike = (0, 0, 0),
+                      way: npt.ArrayLike = (0, 0, 0)) -> FirstContact:
+        """When P at `pose_p` first touches Q at `pose_q`, exactly: in a turn by `degrees` about the axis through
+        `pivot`, on a way, or in a screw, which is both, by less than 180 degrees, the way as the tangent of half the
+        angle."""
+        asked, motion = input_at("pose_p", pose_p, "pose_q", pose_q), exact_motion(axis, degrees, pivot, way)
+        found = ffi.new("pir_exact_impact *")
+        with self._held():
+            pair, workspace = self._single()
+            check(lib.pir_pair_impact(pair, workspace, asked, motion, found), "poses or motion")
+        return first_contact_of(found)
+
+    def sweep(self, a: npt.ArrayLike, b: npt.ArrayLike, a_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0),
+              b_q: Optional[npt.ArrayLike] = None, *, budget: int = 0) -> Sweep:
+        """Whether a motion of P from pose `a` to `b`, and of Q from `a_q` to `b_q`, is free, proven. Without `b_q` Q
+        rests. At most `budget` distances are asked for, 0 for 512."""
+        first, second = input_at("a", a, "a_q", a_q), input_at("b", b, "b_q", a_q if b_q is None else b_q)
+        with self._held():
+            pair, workspace = self._single()
+            return sweep_by(functools.partial(lib.pir_pair_sweep, pair, workspace), first, second, budget)
 
     def active_set(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
                    slack: float = 0.0) -> ActiveSet:

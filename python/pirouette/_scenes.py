@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ._arrays import Bools, Bytes, Floats, Indices, dtype_of, fail_at, indices, number, pointer, poses, whole
 from ._check import Handle, InputError, check, error
+from ._motions import FirstContact, exact_motion, first_contact_of
 from ._native import ffi, lib
 from ._pairs import Impact, impact_of, motion_between
 from ._polytopes import Body, Polytope, as_polytope
@@ -315,6 +316,17 @@ class Scene(Handle):
                   "shape, pose or tolerance", self._report)
         del kept
         return (-1 if found.body == lib.PIR_SCENE_NONE else int(found.body)), impact_of(found)
+
+    def first_contact(self, body: int, *, axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0,
+                      pivot: npt.ArrayLike = (0, 0, 0), way: npt.ArrayLike = (0, 0, 0)) -> "tuple[int, FirstContact]":
+        """When a body first touches another that it may meet, all others at rest, exactly, as of `Pair.first_contact`:
+        the id of the other one, -1 for none, and the contact."""
+        motion, found = exact_motion(axis, degrees, pivot, way), ffi.new("pir_exact_impact *")
+        mover = whole("body", body, 0, 2**32 - 1)
+        with self._held() as scene:
+            check(lib.pir_scene_first_contact(scene, mover, motion, found), "body or motion", self._report)
+        other = found.impact.body
+        return (-1 if other == lib.PIR_SCENE_NONE else int(other)), first_contact_of(found)
 
     def overlaps(self, shape: Body, pose: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *, radius: float = 0.0,
                  mask: int = 2**32 - 1, ignored: npt.ArrayLike = ()) -> "tuple[Indices, Indices]":

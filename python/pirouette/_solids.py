@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 from typing import Any, Callable, Iterator, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from ._arrays import (Bytes, Floats, Indices, dtype_of, fail_at, indices, number, path_of, pointer, quaternion, rows,
                       whole)
 from ._check import Handle, InputError, check
+from ._motions import FirstContact, Sweep, exact_motion, first_contact_of, input_at, sweep_by
 from ._native import ffi, lib
 from ._pairs import both, pairs_of_poses, set_poses
 from ._polytopes import Mesh, Polytope
@@ -249,6 +251,7 @@ class SolidPair(Handle):
         check(lib.pir_workspace_create(ffi.NULL, scratch), "SolidPair")
         self._workspace = ffi.gc(scratch[0], lib.pir_workspace_destroy)
         self._contacts: Any = None
+        self._query: Any = None
 
     @contextlib.contextmanager
     def _both(self) -> Iterator[Tuple[Any, Any]]:
@@ -301,6 +304,34 @@ class SolidPair(Handle):
         all_ = np.concatenate([np.empty(0, dtype_of("pir_solid_contact")), *made])
         return SolidContacts(starts, *(all_[name].copy() for name in SolidContacts._fields[1:]))
 
+    @contextlib.contextmanager
+    def _single(self) -> Iterator[Any]:
+        """The query of single poses, this thread's for a while."""
+        with self._held():
+            if self._query is None:
+                made = ffi.new("pir_solid_query **")
+                with self._both() as (a, b):
+                    check(lib.pir_solid_query_create(a, b, ffi.NULL, made), "SolidPair")
+                self._query = ffi.gc(made[0], lib.pir_solid_query_destroy)
+            yield self._query
+
+    def first_contact(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                      axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0, pivot: npt.ArrayLike = (0, 0, 0),
+                      way: npt.ArrayLike = (0, 0, 0)) -> FirstContact:
+        """As of `Pair.first_contact`."""
+        asked, motion = input_at("pose_p", pose_p, "pose_q", pose_q), exact_motion(axis, degrees, pivot, way)
+        found = ffi.new("pir_exact_impact *")
+        with self._single() as query:
+            check(lib.pir_solid_query_impact(query, self._workspace, asked, motion, found), "poses or motion")
+        return first_contact_of(found)
+
+    def sweep(self, a: npt.ArrayLike, b: npt.ArrayLike, a_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0),
+              b_q: Optional[npt.ArrayLike] = None, *, budget: int = 0) -> Sweep:
+        """As of `Pair.sweep`."""
+        first, second = input_at("a", a, "a_q", a_q), input_at("b", b, "b_q", a_q if b_q is None else b_q)
+        with self._single() as query:
+            return sweep_by(functools.partial(lib.pir_solid_query_sweep, query, self._workspace), first, second, budget)
+
     def _make_contacts(self) -> None:
         if self._contacts is None:
             made = ffi.new("pir_solid_contacts **")
@@ -309,7 +340,7 @@ class SolidPair(Handle):
             self._contacts = ffi.gc(made[0], lib.pir_solid_contacts_destroy)
 
     def _close(self) -> None:
-        self._contacts = None
+        self._contacts = self._query = None
         super()._close()
 
     def __enter__(self) -> "SolidPair":
