@@ -2,7 +2,7 @@
 /*
  * Any bytes as a file of critical maps: as they are, with the length and checksum made to fit, and with those of the
  * sum within made to fit too, so that what lies behind them is reached. They are refused with a report of one line and
- * leave nothing behind, or make a map that is written as the same bytes and knows states at its events.
+ * leave nothing behind, or make a map that is written as the same events and knows states at them.
  *
  * Work is bounded by refusing large inputs. write_turns.c makes the inputs to start from; see fuzz_sum.c for how to run
  * an engine.
@@ -35,12 +35,23 @@ static void seal(uint8_t *data, size_t size) {
     put(data + CHECKSUM_AT, pir_hash_bytes(PIR_HASH_START, data + HEADER_SIZE, size - HEADER_SIZE));
 }
 
+static uint64_t sum_size_of(const uint8_t *data) {
+    uint64_t size = 0;
+    for (int k = 7; k >= 0; k--)
+        size = size << 8 | data[HEADER_SIZE + k];
+    return size;
+}
+
+/* The same behind the sum, of which a file may have one with settings that a map does not keep. */
 static void check_map(const pir_critical_map *map, const uint8_t *data, size_t size) {
     char *written = NULL;
     size_t count = 0;
     FILE *file = open_memstream(&written, &count);
     fuzz_require(file != NULL && pir_critical_map_write(map, file, NULL) == PIR_OK, "a map is written");
-    fuzz_require(fclose(file) == 0 && count <= size && memcmp(written, data, count) == 0, "its bytes are the same");
+    fuzz_require(fclose(file) == 0, "a map is written");
+    const size_t from = SUM_AT + (size_t)sum_size_of(data), to = SUM_AT + (size_t)sum_size_of((uint8_t *)written);
+    fuzz_require(to <= count && from + (count - to) <= size && memcmp(data + from, written + to, count - to) == 0,
+                 "its bytes are the same");
     free(written);
     pir_state state;
     for (uint32_t i = 0; i < pir_critical_map_event_count(map); i++)
@@ -84,9 +95,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (size >= SUM_AT) {
         seal(copy, size);
         read_maps(copy, size);
-        uint64_t sum_size = 0;
-        for (int k = 7; k >= 0; k--)
-            sum_size = sum_size << 8 | copy[HEADER_SIZE + k];
+        const uint64_t sum_size = sum_size_of(copy);
         if (sum_size >= PIR_SUM_HEADER_SIZE && sum_size <= size - SUM_AT) {
             test_bytes_seal(copy + SUM_AT, (size_t)sum_size);
             seal(copy, size);
