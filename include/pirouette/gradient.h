@@ -30,7 +30,9 @@
  * over facets of the least, over the corners of each facet's polygon, of force·v + torque·w. Where bodies are apart
  * there is one such polygon, and the generalised gradient (Clarke, 1983) is the hull of its wrenches. Where bodies
  * touch at a corner or an edge, that holds for motions that make them overlap; along others the distance grows as
- * that to the planes of all facets at once.
+ * that to the planes of all facets at once. Where they touch with edges that lie along each other, a turn makes these
+ * cross, in a facet between the two beside them: the derivative then is at least that, and at most the greatest over
+ * all members.
  *
  * Threads: as for the pair, or the query. No call allocates, but as a query of a pair may.
  */
