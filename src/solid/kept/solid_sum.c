@@ -87,10 +87,10 @@ static pir_status prepare(pir_solid_sum *sum) {
 /* --- at a rotation --- */
 
 /* Turns that are larger than this are rebuilt, unless the caller wants an update. */
-#define TURN_MOST .005
+#define TURN_MOST .015
 
 /* An update that has clipped more than this part of all did not pay. */
-#define CLIPPED_MOST .2
+#define CLIPPED_MOST .25
 
 /* How many rotations are rebuilt after one at the least and at the most. */
 #define REST_LEAST 8
