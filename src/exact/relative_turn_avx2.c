@@ -36,7 +36,7 @@ INLINE bool is_taken(pir_lane q) {
            _mm256_movemask_pd((pir_lane)is_most) != 0;
 }
 
-/* That of q and −q which stands for their rotation: see pir_quat_signed. */
+/* The one of q and −q that stands for their rotation: see pir_quat_signed. */
 INLINE pir_lane with_sign(pir_lane q) {
     // w is to come first
     const pir_lane c = LANES(q, 3, 0, 1, 2);
