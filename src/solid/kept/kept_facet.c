@@ -334,7 +334,7 @@ void pir_kept_facet_make(pir_facet_maker *maker, pir_plane_facet *facet, const u
 
 void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const uint32_t *near, uint32_t count) {
     pir_kept_pair_sum *pair = maker->pairs->pair;
-    const uint32_t look = ++maker->pairs->looks;
+    const uint64_t look = ++maker->pairs->looks;
     for (uint32_t i = 0; i < facet->near_count; i++)
         pair[facet->near[i].pair].met = look;
     for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++)

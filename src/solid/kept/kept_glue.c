@@ -398,7 +398,6 @@ static void trace(pir_kept_glue *glue, pir_plane_facet *facet, pir_loop_list *lo
         pir_number_list_add(&outline->end, space, outline->loop.count);
     }
     outline->is_traced = space->status == PIR_OK;
-    glue->traced++;
 }
 
 /* Where a vertex is along the direction by which loops begin (facet_loops.c): (61, 53, 41). */
@@ -466,7 +465,6 @@ static bool add_loops(pir_kept_glue *glue, const pir_facet_outline *outline, pir
             pir_loops_push_corner(loops, glue->point[corner[at]]);
         pir_loops_end_facet(loops);
     }
-    glue->kept++;
     return true;
 }
 
@@ -482,7 +480,6 @@ static bool prepare(pir_kept_glue *glue, pir_plane_facet *const *facet, uint32_t
     if (glue->fleeting)
         forget(facet, count);
     glue->fleeting = false;
-    glue->kept = glue->traced = 0;
     find_points(glue, facet, count);
     if (room && !place_vertices(glue) && space->status == PIR_OK) {
         // numbers say that two vertices are one, at this rotation

@@ -28,9 +28,10 @@ typedef struct pir_kept_glue {
     uint32_t *point, point_room;   /* per vertex: a point of a facet that is there, or none */
     pir_number_list spare;         /* vertices that are not in use */
     uint32_t *vertex, vertex_room; /* per point of the space that is a vertex's, or stands for one */
-    uint32_t *mark, mark_room;     /* per vertex: the round in which it was met last */
-    uint32_t *met, met_room;       /* per point of the space likewise */
-    uint32_t round;
+    uint64_t *mark;                /* per vertex: the round in which it was met last */
+    uint64_t *met;                 /* per point of the space likewise */
+    uint32_t mark_room, met_room;
+    uint64_t round;           /* of facets, in all calls */
     pir_number_list ends;     /* vertices at which edges end */
     pir_union_outline around; /* of the facet at hand; its points are those of all vertices */
     pir_union_outline cut;    /* of the facet at hand, its runs cut */
@@ -38,7 +39,6 @@ typedef struct pir_kept_glue {
     pir_vertex_grid grid;
     pir_segment_list edge; /* scratch, as is what follows */
     pir_number_list found, touch, first;
-    uint64_t kept, traced; /* facets whose loops were as they had been, and others, in the last call */
 } pir_kept_glue;
 
 /* Glues the facets, in this order, and adds their loops; *ret_edges is how many edges there are. False where planes of

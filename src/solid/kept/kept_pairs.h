@@ -26,7 +26,7 @@ typedef struct pir_kept_pair_sum {
     uint32_t count, room, plane_room;
     uint32_t changed;              /* the frame in which planes came or went */
     uint32_t renewed;              /* the frame in which all planes had their doubles made */
-    uint32_t met;                  /* the number of the facet's look round that came to it last */
+    uint64_t met;                  /* the number of the facet's look round that came to it last */
     uint32_t first_new, new_count; /* of that frame, in `added` */
 } pir_kept_pair_sum;
 
@@ -42,7 +42,7 @@ typedef struct pir_kept_pairs {
     pir_sum_facet_key *key; /* scratch, as are the next */
     uint32_t *plane, key_room, plane_room;
     uint32_t (*edge_at[2])[2]; /* per edge of the pieces of a body: the places of its ends among the piece's vertices */
-    uint32_t looks;            /* of facets round themselves */
+    uint64_t looks;            /* of facets round themselves */
     uint8_t *below;            /* per vertex of a piece: whether an edge leads farther */
     uint32_t below_room;
 } pir_kept_pairs;
