@@ -291,7 +291,7 @@ PIR_API void pir_solid_sum_destroy(pir_solid_sum *sum);
  * Cost: of a rebuild, that of pir_solid_sum_create without the decompositions. Of an update by a five-thousandth of a
  * turn a sixth to two thirds of that before gluing, with gluing four fifths; of larger turns more than a rebuild
  * (docs/solids.md). The first one keeps what a rebuild makes, and takes up to twice as long. Memory: what is kept is
- * 11 to 90 KB a candidate, the more the more pairs of pieces are near.
+ * 11 to 90 KB a candidate, the more the more pairs of pieces are near. A motion that is gone again takes no more.
  *
  * Errors: PIR_ERR_ARGUMENT (no such method); else as of pir_solid_sum_create.
  */

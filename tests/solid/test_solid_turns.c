@@ -331,6 +331,37 @@ static void updates_clip_what_has_changed(void **state) {
     pir_solid_release(p);
 }
 
+/* Once a motion was gone some times, it takes no more memory, though facets come and go. */
+static void motion_gone_again_takes_no_memory(void **state) {
+    (void)state;
+    pir_solid *p = solid_model_new("gear8", 1), *q = solid_model_new("star5", .5);
+    pir_solid_sum *sum = NULL;
+    pir_solid_sum_info info;
+    test_memory memory = {0};
+    const pir_allocator allocator = test_allocator(&memory);
+    const pir_quat first = {.3, .1, .2, .9};
+    pir_solid_sum_options options = pir_solid_sum_options_default();
+    uint64_t requests = 0, clipped = 0;
+    options.allocator = &allocator;
+    assert_int_equal(pir_solid_sum_create(p, q, first, &options, &sum), PIR_OK);
+    for (int time = 0; time < 12; time++) {
+        requests = memory.requests;
+        clipped = 0;
+        for (int frame = 0; frame < 20; frame++) {
+            const pir_quat now = turned(first, (pir_vec3){.48, .6, .64}, 1e-2 * (frame < 10 ? frame : 20 - frame));
+            assert_int_equal(pir_solid_sum_rotate(sum, now, PIR_SOLID_UPDATE), PIR_OK);
+            assert_int_equal(pir_solid_sum_describe(sum, &info), PIR_OK);
+            clipped += info.clipped;
+        }
+    }
+    expect(memory.requests == requests, "%llu requests for memory", (unsigned long long)(memory.requests - requests));
+    expect(clipped > 500, "%llu facets clipped", (unsigned long long)clipped);
+    pir_solid_sum_destroy(sum);
+    expect(memory.blocks == 0, "%zu blocks are left", memory.blocks);
+    pir_solid_release(q);
+    pir_solid_release(p);
+}
+
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
@@ -341,6 +372,7 @@ int main(void) {
         cmocka_unit_test(sum_outlives_rotations_that_run_out_of_memory),
         cmocka_unit_test(kept_sum_outlives_updates_that_run_out_of_memory),
         cmocka_unit_test(updates_clip_what_has_changed),
+        cmocka_unit_test(motion_gone_again_takes_no_memory),
     };
     return cmocka_run_group_tests_name("sums of solids that turn", tests, NULL, NULL);
 }

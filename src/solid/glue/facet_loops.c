@@ -131,31 +131,26 @@ static bool loop_before(void *context, uint32_t a, uint32_t b) {
 
 /* Puts the loops of the group in order. */
 static void sort_loops(struct loop_tracer *t) {
-    const pir_allocator *a = &t->space->allocator;
-    const uint32_t count = t->list->count - t->first_loop;
-    pir_loop *loop = t->list->loop + t->first_loop;
+    pir_loop_list *list = t->list;
+    const uint32_t count = list->count - t->first_loop;
+    pir_loop *loop = list->loop + t->first_loop;
     if (count == 1) {
         loop->within = t->first_loop;
         return;
     }
-    uint32_t *order = PIR_NEW(a, uint32_t, count), *work = PIR_NEW(a, uint32_t, count);
-    pir_loop *copy = PIR_NEW(a, pir_loop, count);
-    if (order && work && copy) {
-        for (uint32_t i = 0; i < count; i++) {
-            order[i] = i;
-            copy[i] = loop[i];
-        }
-        pir_sort(order, count, work, loop_before, t);
-        for (uint32_t i = 0; i < count; i++) {
-            loop[i] = copy[order[i]];
-            loop[i].within = t->first_loop + i;
-        }
-    } else {
-        t->space->status = PIR_ERR_MEMORY;
+    if (!pir_space_grow(t->space, (void **)&list->order, &list->order_room, count, sizeof *list->order) ||
+        !pir_space_grow(t->space, (void **)&list->work, &list->work_room, count, sizeof *list->work) ||
+        !pir_space_grow(t->space, (void **)&list->copy, &list->copy_room, count, sizeof *list->copy))
+        return;
+    for (uint32_t i = 0; i < count; i++) {
+        list->order[i] = i;
+        list->copy[i] = loop[i];
     }
-    PIR_FREE(a, order, count);
-    PIR_FREE(a, work, count);
-    PIR_FREE(a, copy, count);
+    pir_sort(list->order, count, list->work, loop_before, t);
+    for (uint32_t i = 0; i < count; i++) {
+        loop[i] = list->copy[list->order[i]];
+        loop[i].within = t->first_loop + i;
+    }
 }
 
 /* Whether a loop goes round a hole: a turn to the right, or back, at the corner that is first along one axis, then
@@ -328,5 +323,8 @@ void pir_loop_list_finish(pir_loop_list *loops) {
     pir_space_shrink(loops->space, loops->spare, loops->spare_room, sizeof *loops->spare);
     pir_space_shrink(loops->space, loops->used, loops->used_room, sizeof *loops->used);
     pir_space_shrink(loops->space, loops->seat, loops->seat_room, sizeof *loops->seat);
+    pir_space_shrink(loops->space, loops->order, loops->order_room, sizeof *loops->order);
+    pir_space_shrink(loops->space, loops->work, loops->work_room, sizeof *loops->work);
+    pir_space_shrink(loops->space, loops->copy, loops->copy_room, sizeof *loops->copy);
     *loops = (pir_loop_list){0};
 }

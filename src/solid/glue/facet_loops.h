@@ -24,6 +24,9 @@ typedef struct pir_loop_list {
     uint32_t hole_count;
     bool *used; /* scratch, per run */
     uint32_t used_room, *seat, seat_room;
+    uint32_t *order, order_room, *work, work_room; /* likewise, per loop of a group */
+    pir_loop *copy;
+    uint32_t copy_room;
 } pir_loop_list;
 
 /* Takes all out, and keeps the memory. */

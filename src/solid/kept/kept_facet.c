@@ -49,9 +49,18 @@ static void clear(pir_facet_maker *maker, pir_plane_facet *facet) {
     facet->based = false;
 }
 
+void pir_kept_facet_empty(pir_facet_maker *maker, pir_plane_facet *facet) {
+    pir_facet_outline *outline = &facet->outline;
+    clear(maker, facet);
+    facet->key_count = 0;
+    outline->run_count = outline->member.count = outline->chain.count = outline->touch.count = 0;
+    outline->loop.count = outline->end.count = 0;
+    outline->is_traced = outline->knotted = false;
+}
+
 void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_space *space = maker->space;
-    clear(maker, facet);
+    pir_kept_facet_empty(maker, facet);
     pir_polygons_finish(&facet->candidates);
     pir_space_shrink(space, facet->key, facet->key_room, sizeof *facet->key);
     pir_space_shrink(space, facet->points.number, facet->points.room, sizeof(uint32_t));

@@ -154,7 +154,10 @@ bool pir_kept_facet_is_upright(pir_facet_maker *maker, const pir_plane_facet *fa
 /* The box of the facet's candidates. */
 pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet);
 
-/* Gives back the numbers that only the facet has, and its memory. */
+/* Gives back the numbers that only the facet has, and forgets its candidates. */
+void pir_kept_facet_empty(pir_facet_maker *maker, pir_plane_facet *facet);
+
+/* Likewise, and frees its memory. */
 void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet);
 
 /* How far P may turn before a sum of vertices at this distance from a plane, not sure where it is not above 0, may be

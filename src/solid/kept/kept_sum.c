@@ -161,12 +161,24 @@ static bool sort(pir_kept_sum *kept, uint32_t count, bool (*before)(void *, uint
     return true;
 }
 
-static void drop_facet(pir_kept_sum *kept, pir_plane_facet *facet) {
+static void free_facet(pir_kept_sum *kept, pir_plane_facet *facet) {
     pir_kept_facet_finish(&kept->maker, facet);
     PIR_FREE(&kept->space->allocator, facet, 1);
 }
 
+/* Makes a facet spare, with the memory that it has. */
+static void drop_facet(pir_kept_sum *kept, pir_plane_facet *facet) {
+    pir_kept_facet_empty(&kept->maker, facet);
+    if (pir_space_grow(kept->space, (void **)&kept->spare, &kept->spare_room, kept->spare_count, sizeof *kept->spare)) {
+        kept->spare[kept->spare_count++] = facet;
+        return;
+    }
+    free_facet(kept, facet);
+}
+
 static pir_plane_facet *new_facet(pir_kept_sum *kept) {
+    if (kept->spare_count > 0)
+        return kept->spare[--kept->spare_count];
     pir_plane_facet *facet = PIR_ZEROED(&kept->space->allocator, pir_plane_facet, 1);
     if (!facet)
         kept->space->status = PIR_ERR_MEMORY;
@@ -237,24 +249,19 @@ static bool candidates_may_differ(const pir_sign_table *table) {
 
 /* --- what is near --- */
 
-static void finish_boxes(pir_kept_sum *kept) {
-    if (kept->has_boxes)
-        pir_boxes_finish(&kept->boxes, &kept->space->allocator);
-    kept->has_boxes = false;
-}
-
 static void make_boxes(pir_kept_sum *kept, double step) {
     pir_space *space = kept->space;
     const uint32_t count = kept->pairs.count;
-    pir_space_box *box = PIR_NEW(&space->allocator, pir_space_box, count);
-    finish_boxes(kept);
-    for (uint32_t i = 0; i < count && box; i++)
-        box[i] = pir_kept_pair_box(&kept->pairs, i);
-    if (box && pir_boxes_init(&kept->boxes, &space->allocator, box, count))
-        kept->has_boxes = true;
+    if (!pir_space_grow(space, (void **)&kept->box, &kept->box_room, count, sizeof *kept->box))
+        return;
+    for (uint32_t i = 0; i < count; i++)
+        kept->box[i] = pir_kept_pair_box(&kept->pairs, i);
+    if (kept->has_boxes)
+        pir_boxes_replace(&kept->boxes, kept->box);
     else
+        kept->has_boxes = pir_boxes_init(&kept->boxes, &space->allocator, kept->box, count);
+    if (!kept->has_boxes)
         space->status = PIR_ERR_MEMORY;
-    PIR_FREE(&space->allocator, box, count);
     const double turn = fmin(SKIN_STEPS * step, SKIN_MOST);
     kept->boxes_turn = kept->maker.turn;
     kept->skin = turn * fmin(kept->maker.diameter[0], kept->maker.diameter[1]);
@@ -430,7 +437,10 @@ void pir_kept_sum_finish(pir_kept_sum *kept) {
     if (!space)
         return;
     for (uint32_t i = 0; i < kept->count; i++)
-        drop_facet(kept, kept->facet[i]);
+        free_facet(kept, kept->facet[i]);
+    for (uint32_t i = 0; i < kept->spare_count; i++)
+        free_facet(kept, kept->spare[i]);
+    pir_space_shrink(space, kept->spare, kept->spare_room, sizeof(pir_plane_facet *));
     pir_space_shrink(space, kept->facet, kept->room, sizeof(pir_plane_facet *));
     pir_space_shrink(space, kept->merged, kept->merged_room, sizeof(pir_plane_facet *));
     pir_space_shrink(space, kept->key, kept->key_room, sizeof *kept->key);
@@ -439,7 +449,9 @@ void pir_kept_sum_finish(pir_kept_sum *kept) {
     for (int k = 0; k < 2; k++)
         PIR_FREE(&space->allocator, kept->line[k], kept->body[k].edge_count);
     pir_space_shrink(space, kept->below, kept->below_room, sizeof *kept->below);
-    finish_boxes(kept);
+    if (kept->has_boxes)
+        pir_boxes_finish(&kept->boxes, &space->allocator);
+    pir_space_shrink(space, kept->box, kept->box_room, sizeof *kept->box);
     PIR_FREE(&space->allocator, kept->found, kept->pairs.count);
     pir_space_shrink(space, kept->by_candidate, kept->by_candidate_room, sizeof *kept->by_candidate);
     pir_kept_glue_finish(&kept->glue);

@@ -29,6 +29,8 @@ typedef struct pir_kept_sum {
     uint32_t *line[2];                 /* per edge of a body: the first on its line */
     pir_plane_facet **facet, **merged; /* merged: scratch, as is what follows */
     uint32_t count, room, merged_room;
+    pir_plane_facet **spare; /* with the memory that they had */
+    uint32_t spare_count, spare_room;
     bool is_listed; /* whether the facets' order by candidates is there */
     uint32_t *by_candidate, by_candidate_room;
     pir_kept_glue glue;
@@ -36,7 +38,9 @@ typedef struct pir_kept_sum {
     uint32_t key_count, key_room, *order, order_room, *work, work_room;
     uint8_t *below;
     uint32_t below_room;
-    pir_boxes boxes; /* of the pairs' sums when P had turned by boxes_turn */
+    pir_boxes boxes;    /* of the pairs' sums when P had turned by boxes_turn */
+    pir_space_box *box; /* scratch, of as many */
+    uint32_t box_room;
     double boxes_turn, near_until, skin;
     uint32_t *found;
     pir_quat rotation; /* of length 1 */

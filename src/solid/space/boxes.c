@@ -76,6 +76,25 @@ static void split(pir_boxes *boxes, const pir_space_box *box, uint32_t first, ui
     split(boxes, box, first + half, count - half);
 }
 
+void pir_boxes_replace(pir_boxes *boxes, const pir_space_box *box) {
+    const uint32_t count = boxes->count, leaves = boxes->leaf_count;
+    for (uint32_t i = 0; i < count; i++)
+        boxes->order[i] = i;
+    split(boxes, box, 0, count);
+    for (uint32_t k = boxes->node_count; k-- > 0;) {
+        boxes->node[k] = PIR_SPACE_BOX_EMPTY;
+        if (k + 1 < leaves) {
+            join(&boxes->node[k], &boxes->node[2 * k + 1]);
+            join(&boxes->node[k], &boxes->node[2 * k + 2]);
+        }
+        for (uint32_t i = k + 1 < leaves ? count : (k + 1 - leaves) * LEAF; i < count && i < (k + 2 - leaves) * LEAF;
+             i++)
+            join(&boxes->node[k], &box[boxes->order[i]]);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        boxes->box[i] = box[boxes->order[i]];
+}
+
 bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_space_box *box, uint32_t count) {
     const pir_allocator *a = allocator;
     uint32_t leaves = 1;
@@ -86,24 +105,9 @@ bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_
     boxes->box = PIR_NEW(a, pir_space_box, count);
     boxes->order = PIR_NEW(a, uint32_t, count);
     const bool done = boxes->node && boxes->box && boxes->order;
-    if (done) {
-        for (uint32_t i = 0; i < count; i++)
-            boxes->order[i] = i;
-        split(boxes, box, 0, count);
-        for (uint32_t k = boxes->node_count; k-- > 0;) {
-            boxes->node[k] = PIR_SPACE_BOX_EMPTY;
-            if (k + 1 < leaves) {
-                join(&boxes->node[k], &boxes->node[2 * k + 1]);
-                join(&boxes->node[k], &boxes->node[2 * k + 2]);
-            }
-            for (uint32_t i = k + 1 < leaves ? count : (k + 1 - leaves) * LEAF;
-                 i < count && i < (k + 2 - leaves) * LEAF; i++)
-                join(&boxes->node[k], &box[boxes->order[i]]);
-        }
-        for (uint32_t i = 0; i < count; i++)
-            boxes->box[i] = box[boxes->order[i]];
-    }
-    if (!done)
+    if (done)
+        pir_boxes_replace(boxes, box);
+    else
         pir_boxes_finish(boxes, a);
     return done;
 }

@@ -33,6 +33,10 @@ void pir_space_box_add(pir_space_box *box, const pir_space_point *point);
 
 /* False when out of memory. */
 bool pir_boxes_init(pir_boxes *boxes, const pir_allocator *allocator, const pir_space_box *box, uint32_t count);
+
+/* Puts as many others in place of the boxes. */
+void pir_boxes_replace(pir_boxes *boxes, const pir_space_box *box);
+
 void pir_boxes_finish(pir_boxes *boxes, const pir_allocator *allocator);
 
 /* Writes the boxes that meet `box` into ret_found, which has room for all; how many they are. */

@@ -21,6 +21,8 @@ void pir_polygons_finish(pir_polygons *polygons) {
     pir_space_shrink(polygons->space, polygons->point, polygons->point_room, sizeof *polygons->point);
     pir_space_shrink(polygons->space, polygons->wall, polygons->wall_room, sizeof *polygons->wall);
     pir_space_shrink(polygons->space, polygons->sign, polygons->sign_room, sizeof *polygons->sign);
+    pir_space_shrink(polygons->space, polygons->corner, polygons->made_room, sizeof *polygons->corner);
+    pir_space_shrink(polygons->space, polygons->direction, polygons->direction_room, sizeof *polygons->direction);
     *polygons = (pir_polygons){0};
 }
 

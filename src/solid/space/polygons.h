@@ -17,9 +17,10 @@ typedef struct pir_polygons {
     pir_space *space;
     uint32_t count, room, corner_count, point_room, wall_room, sign_room;
     pir_polygon *polygon;
-    uint32_t *point; /* corners, counter-clockwise from above */
-    uint32_t *wall;  /* per corner: of the side that begins there */
-    int8_t *sign;    /* scratch, per corner of the polygon at hand */
+    uint32_t *point;                                         /* corners, counter-clockwise from above */
+    uint32_t *wall;                                          /* per corner: of the side that begins there */
+    int8_t *sign;                                            /* scratch, per corner of the polygon at hand */
+    uint32_t *corner, *direction, made_room, direction_room; /* likewise, of one that is to be added */
 } pir_polygons;
 
 /* A ball that holds a polygon. */

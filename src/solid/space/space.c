@@ -86,7 +86,8 @@ void pir_space_init(pir_space *space, const pir_allocator *allocator, size_t lim
 void pir_space_finish(pir_space *space) {
     for (size_t k = 0; k < SCRATCH; k++)
         mpz_clear(space->t[k]);
-    pir_space_drop_numbers(space, 0);
+    for (uint32_t k = 0; k < space->number_made; k++)
+        mpz_clear(space->number[k]);
     pir_intern_finish(&space->known_point);
     pir_intern_finish(&space->known_plane);
     pir_space_shrink(space, space->spare_points.number, space->spare_points.room, sizeof(uint32_t));
@@ -126,11 +127,17 @@ void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size)
     pir_memory_free(&space->allocator, array, room, size);
 }
 
+/* The bytes that numbers take which are not weighed yet. */
+static size_t weigh_up_to(pir_space *space, uint32_t count) {
+    size_t bytes = 0;
+    for (; space->weighed < count; space->weighed++)
+        bytes += (size_t)space->number[space->weighed]->_mp_alloc * sizeof(mp_limb_t);
+    return bytes;
+}
+
 /* Counts the numbers that are made by now. */
 static void weigh_numbers(pir_space *space) {
-    size_t bytes = 0;
-    for (; space->weighed < space->number_count; space->weighed++)
-        bytes += (size_t)space->number[space->weighed]->_mp_alloc * sizeof(mp_limb_t);
+    const size_t bytes = weigh_up_to(space, space->number_count);
     if (bytes > space->limit - space->bytes) {
         space->refused = true;
         space->status = PIR_ERR_LIMIT;
@@ -146,21 +153,35 @@ uint32_t pir_space_numbers(pir_space *space, uint32_t count) {
                         sizeof *space->number))
         return 0;
     const uint32_t first = space->number_count;
-    for (uint32_t k = 0; k < count; k++)
-        mpz_init(space->number[space->number_count++]);
+    for (uint32_t k = 0; k < count; k++, space->number_count++)
+        if (space->number_count < space->number_made)
+            mpz_set_ui(space->number[space->number_count], 0);
+        else
+            mpz_init(space->number[space->number_made++]);
     return first;
 }
 
 void pir_space_drop_numbers(pir_space *space, uint32_t first) {
-    while (space->number_count > first)
-        mpz_clear(space->number[--space->number_count]);
-    space->weighed = space->weighed < first ? space->weighed : first;
+    space->number_count = space->number_count < first ? space->number_count : first;
+}
+
+/* Frees the memory of numbers, which nothing refers to any longer, where it is more than such jobs had need of. */
+static void free_numbers(pir_space *space) {
+    const uint32_t lately = space->number_lately - space->number_lately / 1024;
+    space->number_lately = space->number_count > lately ? space->number_count : lately;
+    const bool many = space->number_made / 4 > space->number_lately || space->weight > space->limit / 8;
+    while (many && space->number_made > 0)
+        mpz_clear(space->number[--space->number_made]);
+    space->number_count = 0;
+    // what stays may have grown since it was weighed
+    space->bytes -= space->weight;
+    space->weighed = 0;
+    space->weight = weigh_up_to(space, space->number_made);
+    space->bytes += space->weight;
 }
 
 void pir_space_drop_exact(pir_space *space) {
-    pir_space_drop_numbers(space, 0);
-    space->bytes -= space->weight;
-    space->weight = 0;
+    free_numbers(space);
     pir_intern_clear(&space->known_point);
     pir_intern_clear(&space->known_plane);
     for (uint32_t k = 0; k < space->side_room; k++)

@@ -94,8 +94,9 @@ typedef struct pir_space {
     pir_space_direction *direction;
     pir_space_point *point;
     pir_space_plane *plane;
-    mpz_t *number;
-    uint32_t direction_count, point_count, plane_count, number_count;
+    mpz_t *number; /* those past the count keep their memory for the next ones */
+    uint32_t direction_count, point_count, plane_count, number_count, number_made;
+    uint32_t number_lately; /* the most that were in use before they were forgotten, less with each time */
     uint32_t direction_room, point_room, plane_room, number_room;
     mpz_t t[20];                         /* scratch of the exact calls */
     pir_intern known_point, known_plane; /* exact numbers: equal ones are there once */
@@ -139,7 +140,7 @@ void pir_space_shrink(pir_space *space, void *array, uint32_t room, size_t size)
 /* `count` new numbers, all 0; the number of the first. */
 uint32_t pir_space_numbers(pir_space *space, uint32_t count);
 
-/* Frees the numbers from `first` on, which nothing refers to. */
+/* Takes back the numbers from `first` on, which nothing refers to. */
 void pir_space_drop_numbers(pir_space *space, uint32_t first);
 
 /* Forgets all exact numbers, and which of them are known. What had them is to be made anew. */

@@ -28,18 +28,18 @@ struct candidate_maker {
     pir_candidate_taker *take;
     void *context;
     uint32_t *first, *edge; /* per point of b: where its edges begin in `edge` */
-    uint32_t *point, *direction;
-    uint32_t count, point_room, direction_room;
+    uint32_t count;         /* corners of the polygon that is to be added */
 };
 
 /* --- sums of faces --- */
 
 static void push(struct candidate_maker *m, uint32_t a, uint32_t b, uint32_t direction) {
-    if (!pir_space_grow(m->space, (void **)&m->point, &m->point_room, m->count, sizeof *m->point) ||
-        !pir_space_grow(m->space, (void **)&m->direction, &m->direction_room, m->count, sizeof *m->direction))
+    pir_polygons *p = m->polygons;
+    if (!pir_space_grow(m->space, (void **)&p->corner, &p->made_room, m->count, sizeof *p->corner) ||
+        !pir_space_grow(m->space, (void **)&p->direction, &p->direction_room, m->count, sizeof *p->direction))
         return;
-    m->point[m->count] = pir_space_add_sum(m->space, a, b);
-    m->direction[m->count++] = direction;
+    p->corner[m->count] = pir_space_add_sum(m->space, a, b);
+    p->direction[m->count++] = direction;
 }
 
 /* The corner of `face` that is farthest out beyond a side of direction d, counter-clockwise about n; of two, the one
@@ -70,7 +70,8 @@ static void add_sum(struct candidate_maker *m, uint32_t half, uint32_t n, const 
             left--;
         }
     }
-    const uint32_t polygon = pir_polygons_add(m->polygons, half, m->point, m->direction, NULL, m->count);
+    const uint32_t polygon =
+        pir_polygons_add(m->polygons, half, m->polygons->corner, m->polygons->direction, NULL, m->count);
     if (m->space->status == PIR_OK && m->take)
         m->take(m->context, polygon);
 }
@@ -198,8 +199,8 @@ static void meet_edge_pair(struct candidate_maker *m, const pir_shell_body_edge 
         push(m, corner[along > 0][i][0], corner[along > 0][i][1], side[i & 1]);
     if (space->status != PIR_OK)
         return;
-    const uint32_t polygon =
-        pir_polygons_add(m->polygons, half, m->point, m->direction, (const bool[]){false, false, true, true}, m->count);
+    const uint32_t polygon = pir_polygons_add(m->polygons, half, m->polygons->corner, m->polygons->direction,
+                                              (const bool[]){false, false, true, true}, m->count);
     if (space->status == PIR_OK && m->take)
         m->take(m->context, polygon);
 }
@@ -239,8 +240,6 @@ static void finish(struct candidate_maker *m) {
     const pir_allocator *a = &m->space->allocator;
     PIR_FREE(a, m->first, (size_t)m->b->source.point_count + 2);
     PIR_FREE(a, m->edge, 2 * (size_t)m->b->edge_count);
-    pir_space_shrink(m->space, m->point, m->point_room, sizeof *m->point);
-    pir_space_shrink(m->space, m->direction, m->direction_room, sizeof *m->direction);
 }
 
 /* The candidates with a facet of `a`; those of two facets and of two edges when `both`. */
@@ -266,14 +265,12 @@ void pir_candidates_at_vertex(const pir_shell_body *a, const pir_shell_body *b, 
     struct candidate_maker m = {.space = a->space, .a = a, .b = b, .polygons = polygons};
     const uint32_t point = b->first_point + vertex;
     add_parts(&m, facet, &(struct flat_face){&point, NULL, 1});
-    finish(&m);
 }
 
 void pir_candidate_of_edges(const pir_shell_body *p, const pir_shell_body *q, uint32_t e, uint32_t g,
                             pir_polygons *polygons) {
     struct candidate_maker m = {.space = p->space, .a = p, .b = q, .polygons = polygons};
     meet_edge_pair(&m, &p->edge[e], &q->edge[g]);
-    finish(&m);
 }
 
 void pir_candidates(const pir_shell_body *p, const pir_shell_body *q, pir_polygons *polygons, pir_candidate_taker *take,
