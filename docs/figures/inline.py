@@ -214,6 +214,7 @@ SLICES = {
     "verdict": lambda r: between([float(row["verdict_ns"]) / 1000 for row in r.classify.rows]),
     "verdict_ratio": lambda r: between([float(row["verdict_ns"]) / float(row["pairs_ns"])
                                         for row in r.classify.rows]),
+    "whole_ratio": lambda r: between([float(row["whole_ns"]) / float(row["pairs_ns"]) for row in r.classify.rows]),
 }
 
 

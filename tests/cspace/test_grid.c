@@ -209,6 +209,46 @@ static void the_nearest_are_the_nearest(void **state) {
     }
 }
 
+/* A rotation as far from up to four of a grid, which lie about a random one, moved by up to 2^-10 to 2^-55. */
+static pir_quat between_some(test_random *random, const pir_grid *grid) {
+    const pir_quat about = random_unit(random);
+    uint64_t near[4];
+    pir_grid_nearest(grid, about, 4, near);
+    const uint32_t count = 1 + test_random_below(random, 4);
+    double sum[4] = {0, 0, 0, 0};
+    for (uint32_t k = 0; k < count; k++) {
+        const pir_quat q = pir_grid_rotation(grid, near[k]);
+        const double sign = q.x * about.x + q.y * about.y + q.z * about.z + q.w * about.w < 0 ? -1 : 1;
+        const double c[4] = {q.x, q.y, q.z, q.w};
+        for (int i = 0; i < 4; i++)
+            sum[i] += sign * c[i];
+    }
+    const double off = ldexp(1, -10 - test_random_between(random, 0, 45));
+    for (int i = 0; i < 4; i++)
+        sum[i] += off * (2 * test_random_unit(random) - 1);
+    return (pir_quat){sum[0], sum[1], sum[2], sum[3]};
+}
+
+/* One rotation alone is told by tables, two are searched: the first is the same, ties included. */
+static void tables_tell_what_a_search_finds(void **state) {
+    (void)state;
+    test_random random = test_random_case("tables", 0);
+    for (uint32_t level = 0; level <= 6; level++) {
+        pir_grid *grid = hopf(level);
+        for (int i = 0; i < 30000; i++) {
+            const pir_quat q = i % 3 == 0   ? between_some(&random, grid)
+                               : i % 3 == 1 ? test_rotation(&random)
+                                            : random_unit(&random);
+            uint64_t told, found[2];
+            assert_int_equal(pir_grid_nearest(grid, q, 1, &told), 1);
+            assert_int_equal(pir_grid_nearest(grid, q, 2, found), 2);
+            expect(told == found[0], "level %u, %.17g %.17g %.17g %.17g: %llu and %llu", level, q.x, q.y, q.z, q.w,
+                   (unsigned long long)told, (unsigned long long)found[0]);
+        }
+        pir_grid_destroy(grid);
+    }
+}
+
 static void the_bits_are_the_same_everywhere(void **state) {
     (void)state;
     uint64_t hash = 0xcbf29ce484222325u;
@@ -288,10 +328,15 @@ static void no_memory_is_a_status(void **state) {
 int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_axis_has_equal_turns),          cmocka_unit_test(the_hopf_grid_is_the_published_one),
-        cmocka_unit_test(the_hopf_grid_is_equidistributed), cmocka_unit_test(the_dispersion_is_as_published),
-        cmocka_unit_test(the_nearest_are_the_nearest),      cmocka_unit_test(the_bits_are_the_same_everywhere),
-        cmocka_unit_test(bad_arguments_are_refused),        cmocka_unit_test(no_memory_is_a_status),
+        cmocka_unit_test(an_axis_has_equal_turns),
+        cmocka_unit_test(the_hopf_grid_is_the_published_one),
+        cmocka_unit_test(the_hopf_grid_is_equidistributed),
+        cmocka_unit_test(the_dispersion_is_as_published),
+        cmocka_unit_test(the_nearest_are_the_nearest),
+        cmocka_unit_test(tables_tell_what_a_search_finds),
+        cmocka_unit_test(the_bits_are_the_same_everywhere),
+        cmocka_unit_test(bad_arguments_are_refused),
+        cmocka_unit_test(no_memory_is_a_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

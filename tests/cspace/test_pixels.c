@@ -10,7 +10,7 @@
 #include <stdlib.h>
 
 #include "cspace/grid/angle.h"
-#include "cspace/grid/pixel_path.h"
+#include "cspace/grid/pixel.h"
 #include "support/random.h"
 
 #define PI 3.14159265358979323846

@@ -7,13 +7,9 @@
  */
 #include "cspace/answer/piece_ball.h"
 
-#include <math.h>
-
-#include "base/vec.h"
-
 #define MOVES 48
 
-double pir_safe_length(pir_vec3 v) {
+double pir_scaled_length(pir_vec3 v) {
     double most = fmax(fmax(fabs(v.x), fabs(v.y)), fabs(v.z));
     if (!(most > 0) || !isfinite(most))
         return most;

@@ -3,7 +3,11 @@
 #ifndef PIR_CSPACE_ANSWER_PIECE_BALL_H
 #define PIR_CSPACE_ANSWER_PIECE_BALL_H
 
+#include <math.h>
+
 #include <pirouette/polytope.h>
+
+#include "base/vec.h"
 
 /* The unit of rounding. */
 #define PIR_ROUNDING 0x1p-53
@@ -15,8 +19,14 @@ typedef struct pir_piece_ball {
     double reach;                 /* no vertex is farther from the origin */
 } pir_piece_ball;
 
-/* The length of a vector, also where its square is beyond the doubles. */
-double pir_safe_length(pir_vec3 v);
+/* The length of a vector whose square may be beyond the doubles. */
+double pir_scaled_length(pir_vec3 v);
+
+/* The length of any vector. */
+static inline double pir_safe_length(pir_vec3 v) {
+    const double square = pir_vec_dot(v, v);
+    return square > 0x1p-900 && square < 0x1p900 ? sqrt(square) : pir_scaled_length(v);
+}
 
 /* O(n) for n vertices. */
 pir_piece_ball pir_piece_ball_of(const pir_polytope *polytope);

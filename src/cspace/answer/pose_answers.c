@@ -18,6 +18,7 @@
 #include "base/vec.h"
 #include "cspace/answer/same_rotation.h"
 #include "cspace/grid/angle.h"
+#include "cspace/grid/nearby.h"
 #include "exact/rotation.h"
 
 /*
@@ -50,6 +51,7 @@ static pir_layout layout_of(pir_answers *answers) {
 pir_status pir_answers_init(pir_answers *answers, const pir_answered_bodies *bodies, const pir_allocator *allocator) {
     const uint64_t pairs = (uint64_t)bodies->robot_count * bodies->obstacle_count;
     *answers = (pir_answers){.allocator = pir_allocator_or_default(allocator), .bodies = *bodies};
+    answers->input = pir_pair_input_default();
     answers->is_list = pir_grid_get_info(bodies->grid).kind == PIR_GRID_LIST;
     answers->pair_count = pairs < PAIRS ? (uint32_t)pairs : PAIRS;
     pir_layout layout = layout_of(answers);
@@ -78,7 +80,7 @@ void pir_answers_finish(pir_answers *answers) {
 struct asked {
     pir_answers *answers;
     const pir_pose *pose;
-    pir_rotation rotation;
+    pir_rotation_doubles rotation;
     pir_answer_wish wish;
     double length; /* of the translation */
     pir_configuration configuration;
@@ -90,7 +92,7 @@ struct asked {
 /* The pair of two pieces. */
 static pir_status get_pair(pir_answers *answers, uint32_t robot, uint32_t obstacle, pir_pair **ret_pair) {
     const uint64_t number = (uint64_t)robot * answers->bodies.obstacle_count + obstacle;
-    pir_kept_pair *kept = &answers->pair[number % answers->pair_count];
+    pir_kept_pair *kept = &answers->pair[number < answers->pair_count ? number : number % answers->pair_count];
     pir_status status = PIR_OK;
     if (!kept->pair) {
         pir_pair_options options = pir_pair_options_default();
@@ -142,14 +144,13 @@ static pir_status ask_pair(struct asked *asked, uint32_t robot, uint32_t obstacl
         return PIR_OK;
     }
     pir_pair *pair;
-    pir_pair_input input = pir_pair_input_default();
     pir_query_result result;
-    input.pose_p = *asked->pose;
+    answers->input.pose_p = *asked->pose;
     pir_status status = get_pair(answers, robot, obstacle, &pair);
     if (status != PIR_OK)
         return status;
-    status = asked->wish == PIR_WISH_GAP ? pir_pair_signed_distance(pair, answers->workspace, &input, &result)
-                                         : pir_pair_overlap(pair, answers->workspace, &input, &result);
+    status = asked->wish == PIR_WISH_GAP ? pir_pair_signed_distance(pair, answers->workspace, &answers->input, &result)
+                                         : pir_pair_overlap(pair, answers->workspace, &answers->input, &result);
     if (status != PIR_OK)
         return status;
     double gap = 0;
@@ -174,35 +175,57 @@ static pir_status ask_all(struct asked *asked) {
     return PIR_OK;
 }
 
+/* Makes a rotation of the grid the pose's own, where it is: its `unit` is known. */
+static bool is_own(struct asked *asked, uint64_t number, pir_quat unit) {
+    // those that are not close, as nearly all, are not held against the pose's by integers
+    if (fabs(pir_quat_dot(asked->rotation.unit, unit)) <= 1 - 1e-9 ||
+        !pir_same_rotation(asked->pose->rotation, pir_grid_rotation(asked->answers->bodies.grid, number)))
+        return false;
+    asked->configuration.place.slice = number;
+    asked->configuration.on_grid = true;
+    asked->configuration.turn = 0;
+    return true;
+}
+
 /* The nearest rotation, that of the pose's very rotation first: doubles may take one 1e-16 off for nearer. */
 static void find_nearest(struct asked *asked) {
     const pir_grid *grid = asked->answers->bodies.grid;
+    const pir_grid_nearby nearby = pir_grid_nearest_to(grid, asked->pose->rotation, asked->rotation.unit);
+    asked->configuration.place.slice = nearby.number;
+    asked->configuration.turn = pir_rotation_angle_bound(asked->rotation.unit, nearby.unit);
+    if (is_own(asked, nearby.number, nearby.unit) || !asked->answers->is_list)
+        return;
     uint64_t nearest[NEAREST];
-    const size_t most = asked->answers->is_list ? NEAREST : 1;
-    const size_t count = pir_grid_nearest(grid, asked->pose->rotation, most, nearest);
-    pir_configuration *known = &asked->configuration;
-    known->place.slice = nearest[0];
-    for (size_t k = 0; k < count; k++) {
-        const pir_quat at = pir_grid_rotation(grid, nearest[k]);
-        const pir_quat unit = pir_quat_unit(at);
-        // those that are not close, as nearly all, are not held against the pose's by integers
-        if (fabs(pir_quat_dot(asked->rotation.unit, unit)) > 1 - 1e-9 && pir_same_rotation(asked->pose->rotation, at)) {
-            known->place.slice = nearest[k];
-            known->on_grid = true;
-            known->turn = 0;
+    const size_t count = pir_grid_nearest(grid, asked->pose->rotation, NEAREST, nearest);
+    for (size_t k = 1; k < count; k++)
+        if (is_own(asked, nearest[k], pir_quat_unit(pir_grid_rotation(grid, nearest[k]))))
             return;
-        }
-        if (k == 0)
-            known->turn = pir_rotation_angle_bound(asked->rotation.unit, unit);
+}
+
+/* As pir_rotation_set, the doubles alone. */
+static pir_status set_doubles(pir_rotation_doubles *doubles, pir_quat given) {
+    const pir_quat q = pir_quat_signed(given);
+    if (pir_quat_is_near_one(q)) {
+        *doubles = pir_doubles_of(q);
+        return PIR_OK;
     }
+    pir_rotation rotation;
+    const pir_status status = pir_rotation_set(&rotation, given);
+    if (status == PIR_OK)
+        *doubles = (pir_rotation_doubles){rotation.unit, rotation.r};
+    return status;
 }
 
 pir_status pir_answers_classify(pir_answers *answers, const pir_pose *pose, pir_answer_wish wish, pir_report *report,
                                 pir_configuration *ret_configuration, double *ret_gap) {
-    struct asked asked = {.answers = answers, .pose = pose, .wish = wish};
+    struct asked asked; // set member by member, for the whole is written far faster than it is cleared
+    asked.answers = answers;
+    asked.pose = pose;
+    asked.wish = wish;
     asked.gap = asked.nearest_balls = HUGE_VAL;
-    asked.configuration.verdict = PIR_VERDICT_FREE;
-    pir_status status = pir_rotation_set(&asked.rotation, pose->rotation);
+    asked.overlap = 0;
+    asked.configuration = (pir_configuration){.verdict = PIR_VERDICT_FREE};
+    pir_status status = set_doubles(&asked.rotation, pose->rotation);
     if (status == PIR_OK && !pir_vec_is_finite(pose->translation))
         status = PIR_ERR_NOT_FINITE;
     if (status == PIR_OK) {

@@ -20,6 +20,7 @@ typedef struct pir_answers {
     pir_piece_ball *robot, *obstacle;
     bool is_list; /* the grid */
     pir_workspace *workspace;
+    pir_pair_input input;       /* the obstacles at rest; of the robot's pose what was asked last */
     struct pir_kept_pair *pair; /* pose_answers.c */
     uint32_t pair_count;
 } pir_answers;

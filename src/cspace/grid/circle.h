@@ -27,7 +27,7 @@ pir_circle_point pir_circle_product(const pir_circle *circle, pir_quat unit);
 /* The rotation on the circle nearest to the quaternion of this product. */
 uint32_t pir_circle_nearest(pir_circle_point product, uint32_t around);
 
-/* The number, in the order of visiting, of rotation k over a pixel. */
-uint64_t pir_hopf_number(const pir_hopf *hopf, pir_pixel pixel, uint32_t k);
+/* The number, in the order of visiting, of rotation k over the pixel of a rank on the path. */
+uint64_t pir_hopf_number(const pir_hopf *hopf, uint32_t rank, uint32_t k);
 
 #endif

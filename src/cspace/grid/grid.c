@@ -7,8 +7,9 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "cspace/grid/angle.h"
-#include "cspace/grid/hopf.h"
+#include "cspace/grid/hopf_lookup.h"
 #include "cspace/grid/list.h"
+#include "cspace/grid/nearby.h"
 #include "cspace/grid/turns.h"
 
 struct pir_grid {
@@ -16,7 +17,10 @@ struct pir_grid {
     pir_grid_info info;
     union {
         pir_turns turns;
-        pir_hopf hopf;
+        struct {
+            pir_hopf hopf;
+            pir_hopf_lookup lookup;
+        };
         pir_list list;
     };
 };
@@ -65,7 +69,12 @@ pir_status pir_grid_hopf(uint32_t level, const pir_allocator *allocator, pir_gri
     pir_grid *grid = grid_new(allocator, PIR_GRID_HOPF);
     if (!grid)
         return PIR_ERR_MEMORY;
-    if (!pir_hopf_init(&grid->hopf, level, &grid->allocator)) {
+    bool made = pir_hopf_init(&grid->hopf, level, &grid->allocator);
+    if (made && !pir_hopf_lookup_init(&grid->lookup, &grid->hopf, &grid->allocator)) {
+        pir_hopf_finish(&grid->hopf, &grid->allocator);
+        made = false;
+    }
+    if (!made) {
         grid_free(grid);
         return PIR_ERR_MEMORY;
     }
@@ -112,10 +121,12 @@ pir_status pir_grid_list(const pir_quat *rotations, size_t count, bool keep_orde
 void pir_grid_destroy(pir_grid *grid) {
     if (!grid)
         return;
-    if (grid->info.kind == PIR_GRID_HOPF)
+    if (grid->info.kind == PIR_GRID_HOPF) {
+        pir_hopf_lookup_finish(&grid->lookup, &grid->hopf, &grid->allocator);
         pir_hopf_finish(&grid->hopf, &grid->allocator);
-    else if (grid->info.kind == PIR_GRID_LIST)
+    } else if (grid->info.kind == PIR_GRID_LIST) {
         pir_list_finish(&grid->list, &grid->allocator);
+    }
     grid_free(grid);
 }
 
@@ -145,10 +156,23 @@ uint64_t pir_grid_cell(const pir_grid *grid, uint64_t number) {
     }
 }
 
+pir_grid_nearby pir_grid_nearest_to(const pir_grid *grid, pir_quat rotation, pir_quat unit) {
+    pir_grid_nearby nearby = {0, {0, 0, 0, 1}};
+    if (grid->info.kind == PIR_GRID_HOPF &&
+        pir_hopf_look_up(&grid->lookup, &grid->hopf, unit, &nearby.number, &nearby.unit))
+        return nearby;
+    pir_grid_nearest(grid, rotation, 1, &nearby.number);
+    nearby.unit = pir_quat_unit(pir_grid_rotation(grid, nearby.number));
+    return nearby;
+}
+
 size_t pir_grid_nearest(const pir_grid *grid, pir_quat rotation, size_t most, uint64_t *ret_numbers) {
     if (!pir_quat_is_rotation(rotation) || most == 0)
         return 0;
-    pir_quat unit = pir_quat_unit(rotation);
+    pir_quat unit = pir_quat_unit(rotation), nearest;
+    if (grid->info.kind == PIR_GRID_HOPF && most == 1 &&
+        pir_hopf_look_up(&grid->lookup, &grid->hopf, unit, ret_numbers, &nearest))
+        return 1;
     pir_near near = {.capacity = most < PIR_NEAR_MAX ? most : PIR_NEAR_MAX};
     switch (grid->info.kind) {
     case PIR_GRID_AXIS:

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 #include "cspace/grid/angle.h"
 #include "cspace/grid/circle.h"
-#include "cspace/grid/pixel_path.h"
 
 /* A circle without the point of φ, which its rotations do not need. */
 static pir_circle rotations_over(uint32_t level, pir_pixel pixel) {
@@ -55,12 +54,12 @@ static bool falls(uint32_t run) {
 /* Number `step` of a run on the circle, and back. */
 static uint32_t on_circle(const pir_hopf *hopf, uint32_t run, uint32_t step) {
     uint32_t from = first_of(run) + (falls(run) ? hopf->around - step : step);
-    return from % hopf->around;
+    return from < hopf->around ? from : from - hopf->around;
 }
 
 static uint32_t step_of(const pir_hopf *hopf, uint32_t run, uint32_t k) {
-    uint32_t from = first_of(run) + hopf->around;
-    return (falls(run) ? from - k : hopf->around + k - first_of(run)) % hopf->around;
+    uint32_t past = falls(run) ? first_of(run) - k : k - first_of(run);
+    return past < hopf->around ? past : past + hopf->around;
 }
 
 /* The last rotation of a run, the number on the next circle nearest to it, and how close they are. */
@@ -111,7 +110,6 @@ uint64_t pir_hopf_cell(const pir_hopf *hopf, uint64_t number) {
     return nested * hopf->around + on_circle(hopf, hopf->run[rank], step);
 }
 
-uint64_t pir_hopf_number(const pir_hopf *hopf, pir_pixel pixel, uint32_t k) {
-    uint32_t rank = pir_pixel_path_rank(hopf->level, pixel);
+uint64_t pir_hopf_number(const pir_hopf *hopf, uint32_t rank, uint32_t k) {
     return (uint64_t)rank * hopf->around + step_of(hopf, hopf->run[rank], k);
 }

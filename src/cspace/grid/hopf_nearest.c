@@ -52,7 +52,8 @@ static void offer_pixel(struct cap *cap, pir_pixel pixel) {
             double close = fabs(pir_quat_dot(cap->unit, pir_circle_rotation(&circle, around, k)));
             if (close < pir_near_least(cap->near))
                 continue;
-            pir_near_offer(cap->near, close, pir_hopf_number(cap->hopf, pixel, k));
+            pir_near_offer(cap->near, close,
+                           pir_hopf_number(cap->hopf, pir_pixel_path_rank(cap->hopf->level, pixel), k));
             shrink(cap);
         }
     }

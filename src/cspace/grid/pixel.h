@@ -52,4 +52,16 @@ pir_pixel pir_pixel_on_circle(uint32_t level, int32_t y, uint32_t k);
 double pir_pixel_y_of(uint32_t level, double z);
 double pir_pixel_z_of(uint32_t level, int32_t y);
 
+/* --- a path through all pixels --- */
+
+/*
+ * Each pixel is a neighbour of the one before. Within a face the path is Hilbert's curve, which begins and ends at two
+ * corners of one side. The faces follow each other such that the curve of one ends beside the place where that of the
+ * next begins; a table says in which order, and how each face's curve is turned or reflected.
+ */
+
+/* Pixel `rank` of the path, of 12·4^level, and back. O(level). */
+pir_pixel pir_pixel_path_at(uint32_t level, uint32_t rank);
+uint32_t pir_pixel_path_rank(uint32_t level, pir_pixel pixel);
+
 #endif
