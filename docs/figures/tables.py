@@ -295,6 +295,14 @@ def terrain_reuse(r):
     return terrain_rows(r.scene_terrain_reuse)
 
 
+def game(r):
+    rows = [[row["threads"], row["guesses"], row["updates"],
+             *(count(round(float(row[key]))) for key in ("mean_us", "median_us", "p99_us", "most_us"))]
+            for row in r.scene_game.rows]
+    return markdown([">threads", "guesses taken back", ">updates", ">mean, µs", ">median", ">99th percentile",
+                     ">most"], rows)
+
+
 # ---- slices.md -------------------------------------------------------------------------------------------------------
 
 SCENES = {
@@ -416,4 +424,4 @@ def solid_track(r):
 TABLES = {function.__name__: function for function in (
     pairs, pairs_motions, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts,
     mesh_sliding, scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, impacts, scale, pile, pile_reuse,
-    terrain_reuse, slices, slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}
+    terrain_reuse, game, slices, slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}

@@ -48,6 +48,9 @@ static uint32_t point_off_line(pir_points *points, uint32_t a, uint32_t b) {
 
 /* A point off the plane abc, or a when there is none. */
 static uint32_t point_off_plane(pir_points *points, uint32_t a, uint32_t b, uint32_t c) {
+    // the three are on their plane, which would take integers to tell
+    if (points->exact->count == 3)
+        return a;
     pir_hull_plane plane = pir_plane_through(points, a, b, c);
     uint32_t best = a;
     double most = 0;

@@ -77,8 +77,27 @@ int pir_body_exponent(const pir_polytope *p, mp_limb_t *room) {
     return top;
 }
 
+/*
+ * Whether an exact coordinate is known to be its nearest double, as most are: a whole number of up to 53 bits times a
+ * power of two, and not so small that doubles have fewer.
+ */
+static bool is_double(const pir_scale *scale, const pir_int *a, double nearest) {
+#if GMP_NUMB_BITS == 64
+    const pir_int *num = &scale->num, *den = &scale->den;
+    int64_t whole;
+    return num->size == 1 && den->size == 1 && (num->limb[0] & (num->limb[0] - 1)) == 0 &&
+           (den->limb[0] & (den->limb[0] - 1)) == 0 && pir_int_get_short(a, &whole) &&
+           whole == (int64_t)(double)whole && (whole == 0 || fabs(nearest) >= 0x1p-1022);
+#else
+    (void)scale;
+    return a->size == 0 && nearest == 0;
+#endif
+}
+
 /* An exact coordinate minus its nearest double. */
 static double remainder_of(const pir_polytope *p, const pir_int *a, double nearest) {
+    if (is_double(&p->scale, a, nearest))
+        return 0;
     mpq_t exact, rounded;
     mpq_inits(exact, rounded, NULL);
     pir_scale_to_rational(exact, a, &p->scale);
