@@ -2,6 +2,7 @@
 /* Questions of pairs: see ask.h. */
 #include "scene/answer/ask.h"
 
+#include "scene/answer/candidates.h"
 #include "scene/answer/events.h"
 #include "scene/answer/share.h"
 #include "scene/answer/surface_contacts.h"
@@ -161,10 +162,13 @@ static pir_status ask(pir_scene *scene, pir_scene_worker *worker, uint32_t numbe
     if (!kept || news.new_contacts || !pir_carry_answer(scene, &news.seen, &found)) {
         bool contact = false;
         const pir_status status = ask_pair(scene, worker, &question, &answer, &contact);
+        if (status == PIR_OK && !contact && question.pair->touching)
+            return pir_scene_note(scene, worker, number, false);
         if (status != PIR_OK || !contact)
             return status;
         tell_answer(&question, &answer, &found, &news);
     }
+    found.key = pir_scene_key_of(scene, number);
     found.error = news.new_contacts ? 0 : fmax(found.error, moved);
     return add_found(scene, worker, &question, &answer, &found, &news);
 }
@@ -185,6 +189,7 @@ static void ask_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t 
 pir_status pir_scene_ask(pir_scene *scene) {
     for (uint32_t i = 0; i < scene->threads; i++) {
         scene->worker[i].found_count = scene->worker[i].on_surface_count = scene->worker[i].contact_count = 0;
+        scene->worker[i].noted_count = 0;
         scene->worker[i].ways = (pir_pair_statistics){0};
     }
     pir_scene_workers_begin(scene);

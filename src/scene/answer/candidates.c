@@ -57,7 +57,7 @@ static bool stays_apart(const pir_scene *scene, const pir_scene_pair *pair, cons
     return pair->apart > 0 && pair->apart - travelled > scene->margin;
 }
 
-static pir_status note(pir_scene *scene, pir_scene_worker *worker, uint32_t pair, bool asks) {
+pir_status pir_scene_note(pir_scene *scene, pir_scene_worker *worker, uint32_t pair, bool asks) {
     if (!PIR_GROW(&scene->allocator, worker->noted, worker->noted_capacity, worker->noted_count + 1))
         return PIR_ERR_MEMORY;
     worker->noted[worker->noted_count++] = (pir_scene_noted){pair, asks};
@@ -103,7 +103,7 @@ static inline pir_status look(pir_scene *scene, pir_scene_worker *worker, uint32
     bool asks = pir_box_meets(&p->tight, &q->tight) && !stays_apart(scene, pair, &bodies[p->body], &bodies[q->body]) &&
                 !is_proven_apart(scene, pair);
     worker->looked++;
-    return asks || pair->touching ? note(scene, worker, number, asks) : PIR_OK;
+    return asks || pair->touching ? pir_scene_note(scene, worker, number, asks) : PIR_OK;
 }
 
 /* Whether a piece's body has moved in this update. */

@@ -15,6 +15,9 @@ pir_status pir_scene_find_pairs(pir_scene *scene);
  */
 pir_status pir_scene_list_questions(pir_scene *scene);
 
+/* Notes a pair that has to be asked, or else one whose contact has ended, for a worker. PIR_ERR_MEMORY. */
+pir_status pir_scene_note(pir_scene *scene, pir_scene_worker *worker, uint32_t pair, bool asks);
+
 /* Drops the pairs of replaced pieces whose boxes in the tree do not meet, or that of a triangle wider by its skin. */
 void pir_scene_drop_pairs(pir_scene *scene);
 

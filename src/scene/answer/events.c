@@ -52,8 +52,7 @@ static uint32_t list_found(pir_scene *scene, const pir_scene_worker *worker, pir
                            uint32_t count) {
     for (uint32_t i = 0; i < of_found; i++)
         if (found == worker->on_surface || !found[i].in_union)
-            scene->lists.item[count++] =
-                (pir_scene_item){pir_scene_key_of(scene, found[i].pair), worker, &found[i], found[i].pair, 0};
+            scene->lists.item[count++] = (pir_scene_item){found[i].key, worker, &found[i], found[i].pair, 0};
     return count;
 }
 
@@ -136,16 +135,9 @@ static bool list_ended(pir_scene *scene) {
     uint32_t most = lists->ended_count + lists->asked_count;
     if (!PIR_GROW(&scene->allocator, lists->ended, lists->ended_capacity, most))
         return false;
-    // what was found is marked for as long as the others are looked for
     for (uint32_t w = 0; w < scene->threads; w++)
-        for (uint32_t i = 0; i < scene->worker[w].found_count; i++)
-            scene->pairs.at[scene->worker[w].found[i].pair].found = true;
-    for (uint32_t i = 0; i < lists->asked_count; i++) {
-        pir_scene_pair *pair = &scene->pairs.at[lists->asked[i]];
-        if (pair->touching && !pair->found)
-            lists->ended[lists->ended_count++] = lists->asked[i];
-        pair->found = false;
-    }
+        for (uint32_t i = 0; i < scene->worker[w].noted_count; i++)
+            lists->ended[lists->ended_count++] = scene->worker[w].noted[i].pair;
     return true;
 }
 

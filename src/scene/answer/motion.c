@@ -52,21 +52,17 @@ static void put_in(pir_scene *scene, uint32_t piece, const pir_box *fat) {
     scene->bodies.piece[piece].node = pir_tree_insert(&scene->tree, fat, piece);
 }
 
-/* Gives a piece its new box, and the tree one that holds it. */
-static void place_piece(pir_scene *scene, uint32_t p, const pir_box *tight, pir_vec3 way) {
+/* Gives a piece its new box. Whether the tree has to get one that holds it, or pairs are to be found; else no piece. */
+static pir_scene_replaced place_piece(pir_scene *scene, uint32_t p, const pir_box *tight) {
     pir_scene_piece *piece = &scene->bodies.piece[p];
-    bool fresh = scene->bodies.body[piece->body].fresh;
-    pir_box before = scene->tree.node[piece->node].box;
+    const pir_scene_body *body = &scene->bodies.body[piece->body];
+    const pir_box before = scene->tree.node[piece->node].box;
     piece->tight = *tight;
     piece->moved = scene->update;
-    bool held = pir_box_holds(&before, tight);
-    if (!held) {
-        pir_box fat = pir_scene_fat_box(tight, way);
-        put_in(scene, p, &fat);
-    }
-    const pir_body_surface *surface = &scene->bodies.body[piece->body].surface;
-    if (!held || fresh || (piece->kind == PIR_PIECE_SURFACE && surface->drift > surface->skin))
-        scene->lists.replaced[scene->lists.replaced_count++] = (pir_scene_replaced){p, !held, before};
+    const bool held = pir_box_holds(&before, tight);
+    if (held && !body->fresh && !(piece->kind == PIR_PIECE_SURFACE && body->surface.drift > body->surface.skin))
+        return (pir_scene_replaced){.piece = PIR_PIECE_NONE};
+    return (pir_scene_replaced){p, !held, before};
 }
 
 /* Brings the boxes of a body's triangles to a place. That of the whole has been made there, so none is too far. */
@@ -78,21 +74,44 @@ static void place_triangles(pir_scene *scene, const pir_scene_body *body, const 
     }
 }
 
-void pir_scene_move_bodies(pir_scene *scene) {
-    const pir_box *box = scene->lists.box;
-    for (uint32_t i = 0; i < scene->lists.moved_count; i++) {
+/* All of a move but what changes the tree, which waits: `replaced` has a place for each piece that has moved. */
+static void move_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
+    (void)task;
+    for (uint32_t i = begin; i < end; i++) {
         const pir_scene_moved *moved = &scene->lists.moved[i];
         pir_scene_body *body = &scene->bodies.body[moved->body];
-        pir_vec3 way = pir_vec_sub(moved->place.pose.translation, body->pose.translation);
+        uint32_t at = moved->first;
         body->surface.previous_drift = body->surface.drift;
         pir_bodies_travel(body, &moved->place);
         body->previous = body->pose;
         body->pose = moved->place.pose;
         body->unit = moved->place.unit;
-        for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next)
-            place_piece(scene, p, box++, pir_vec_scale(way, 2));
+        for (uint32_t p = body->first; p != PIR_PIECE_NONE; p = scene->bodies.piece[p].next, at++)
+            scene->lists.replaced[at] = place_piece(scene, p, &scene->lists.box[at]);
         if (pir_body_has_surface(body))
             place_triangles(scene, body, &moved->place);
+    }
+}
+
+void pir_scene_move_bodies(pir_scene *scene) {
+    pir_scene_lists *lists = &scene->lists;
+    if (lists->moved_count == 0)
+        return;
+    pir_scene_share(scene, lists->moved_count, WORTH_MORE, move_items);
+    const pir_scene_moved *last = &lists->moved[lists->moved_count - 1];
+    const uint32_t pieces = last->first + scene->bodies.body[last->body].pieces;
+    for (uint32_t i = 0; i < pieces; i++) {
+        const pir_scene_replaced replaced = lists->replaced[i];
+        if (replaced.piece == PIR_PIECE_NONE)
+            continue;
+        if (replaced.moved) {
+            const pir_scene_piece *piece = &scene->bodies.piece[replaced.piece];
+            const pir_scene_body *body = &scene->bodies.body[piece->body];
+            const pir_vec3 way = pir_vec_sub(body->pose.translation, body->previous.translation);
+            const pir_box fat = pir_scene_fat_box(&piece->tight, pir_vec_scale(way, 2));
+            put_in(scene, replaced.piece, &fat);
+        }
+        lists->replaced[lists->replaced_count++] = replaced;
     }
 }
 

@@ -25,7 +25,6 @@ typedef struct pir_scene_pair {
     uint32_t piece[2];
     uint32_t next[2], previous[2]; /* ends in the lists of the two pieces; next[0] of an unused pair: the next one */
     bool touching;                 /* after the last update */
-    bool found;                    /* in contact, while an update makes its events */
     pir_pair *asked;               /* or NULL */
     pir_kept_record *kept;         /* of an answer and contacts of the pair alone, or NULL */
     pir_kept_record *united;       /* of contacts of a union, or NULL */

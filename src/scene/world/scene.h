@@ -27,8 +27,14 @@
 #include "scene/world/bodies.h"
 #include "scene/world/budget.h"
 
+/* The numbers by which contacts are in order: of both bodies, P's first (pir_id_order), then of both pieces. */
+typedef struct pir_scene_key {
+    uint64_t bodies, pieces;
+} pir_scene_key;
+
 /* A contact that a worker has found. */
 typedef struct pir_scene_found {
+    pir_scene_key key;
     uint32_t pair, first, count; /* and its contacts, of the worker's */
     bool in_union;               /* its event is made of what was found of a union: `on_surface` of a worker */
     pir_state state;
@@ -78,11 +84,6 @@ typedef struct pir_scene_worker {
     pir_status status;        /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
-
-/* The numbers by which contacts are in order: of both bodies, P's first (pir_id_order), then of both pieces. */
-typedef struct pir_scene_key {
-    uint64_t bodies, pieces;
-} pir_scene_key;
 
 /* A contact that ended between updates, for one of its bodies was removed or changed: the next update tells it. */
 typedef struct pir_scene_gone {
