@@ -16,35 +16,51 @@
 /* How many events are worth another thread. */
 #define WORTH_MORE 256
 
-/* A byte of a key, the lowest first. */
-static inline uint32_t digit_of(const pir_scene_key *key, int digit) {
-    return (uint32_t)((digit < 8 ? key->pieces : key->bodies) >> digit % 8 * 8) & 0xff;
+/* Digits of 8 bits, or of 11 where there are so many items that counters for these pay. */
+#define NARROW 8
+#define WIDE   11
+#define MANY   1000
+
+/* A digit of a key, the lowest first: each half of its two numbers has as many as it takes. */
+static inline uint32_t digit_of(const pir_scene_key *key, uint32_t digit, uint32_t bits) {
+    const uint32_t each = 32 / bits + (32 % bits != 0), at = digit % (2 * each);
+    const uint64_t number = digit < 2 * each ? key->pieces : key->bodies;
+    return (uint32_t)(number >> at / each * 32) >> at % each * bits & ((1u << bits) - 1);
 }
 
-/* A byte at a time; bytes that all keys share are left out. */
-void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
+/* A digit at a time; digits that all keys share are left out. */
+static inline void sort_by_digits(pir_scene_item *item, pir_scene_item *work, uint32_t count, uint32_t bits) {
+    const uint32_t digits = bits == NARROW ? 16 : 12, values = 1u << bits;
     pir_scene_key differ = {0, 0};
     pir_scene_item *from = item, *to = work;
     for (uint32_t i = 1; i < count; i++) {
         differ.bodies |= item[i].key.bodies ^ item[0].key.bodies;
         differ.pieces |= item[i].key.pieces ^ item[0].key.pieces;
     }
-    for (int digit = 0; digit < 16; digit++) {
-        uint32_t start[257] = {0};
-        if (digit_of(&differ, digit) == 0)
+    for (uint32_t digit = 0; digit < digits; digit++) {
+        uint32_t start[(1 << WIDE) + 1];
+        if (digit_of(&differ, digit, bits) == 0)
             continue;
+        memset(start, 0, (values + 1) * sizeof *start);
         for (uint32_t i = 0; i < count; i++)
-            start[digit_of(&from[i].key, digit) + 1]++;
-        for (int value = 0; value < 256; value++)
+            start[digit_of(&from[i].key, digit, bits) + 1]++;
+        for (uint32_t value = 0; value < values; value++)
             start[value + 1] += start[value];
         for (uint32_t i = 0; i < count; i++)
-            to[start[digit_of(&from[i].key, digit)]++] = from[i];
+            to[start[digit_of(&from[i].key, digit, bits)]++] = from[i];
         pir_scene_item *sorted = to;
         to = from;
         from = sorted;
     }
     if (from != item)
         memcpy(item, from, count * sizeof *item);
+}
+
+void pir_scene_sort_items(pir_scene_item *item, pir_scene_item *work, uint32_t count) {
+    if (count < MANY)
+        sort_by_digits(item, work, count, NARROW);
+    else
+        sort_by_digits(item, work, count, WIDE);
 }
 
 /* Lists what a worker found, but for what a union has in its place. The count of all. */
@@ -142,9 +158,14 @@ static bool list_ended(pir_scene *scene) {
 }
 
 static void make_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
-    (void)task;
-    for (uint32_t i = begin; i < end; i++)
-        scene->event[i] = event_of(scene, &scene->lists.item[i]);
+    pir_scene_worker *worker = &scene->worker[task];
+    for (uint32_t i = begin; i < end; i++) {
+        const pir_scene_event event = event_of(scene, &scene->lists.item[i]);
+        scene->event[i] = event;
+        worker->told[event.kind]++;
+        worker->told_contacts += event.contact_count;
+        worker->told_again += event.error > 0;
+    }
 }
 
 pir_status pir_scene_make_events(pir_scene *scene) {
@@ -156,6 +177,8 @@ pir_status pir_scene_make_events(pir_scene *scene) {
     for (uint32_t w = 0; w < scene->threads; w++) {
         most += scene->worker[w].found_count + scene->worker[w].on_surface_count;
         found += scene->worker[w].found_count;
+        memset(scene->worker[w].told, 0, sizeof scene->worker[w].told);
+        scene->worker[w].told_contacts = scene->worker[w].told_again = 0;
     }
     if (!PIR_GROW(a, scene->gone, scene->gone_capacity, scene->touching + found) ||
         !PIR_GROW(a, lists->item, lists->item_capacity, most) ||

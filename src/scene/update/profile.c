@@ -24,10 +24,12 @@ void pir_profile_end(pir_scene *scene) {
         profile->by_whole += ways->by_whole;
         profile->manifolds += ways->manifolds;
     }
-    uint32_t *const of[3] = {&profile->began, &profile->persisted, &profile->ended};
-    for (uint32_t i = 0; i < scene->event_count; i++) {
-        (*of[scene->event[i].kind])++;
-        profile->contacts += scene->event[i].contact_count;
-        profile->reused += scene->event[i].error > 0;
+    for (uint32_t i = 0; i < scene->threads; i++) {
+        const pir_scene_worker *worker = &scene->worker[i];
+        profile->began += worker->told[PIR_EVENT_BEGAN];
+        profile->persisted += worker->told[PIR_EVENT_PERSISTED];
+        profile->ended += worker->told[PIR_EVENT_ENDED];
+        profile->contacts += worker->told_contacts;
+        profile->reused += worker->told_again;
     }
 }

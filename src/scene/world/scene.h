@@ -80,8 +80,9 @@ typedef struct pir_scene_worker {
     pir_surface_contact *met;
     const pir_polytope **beside; /* the pieces next to the one that is asked */
     uint32_t surface_capacity, met_capacity, beside_capacity;
-    pir_pair_statistics ways; /* of its questions, where they are counted */
-    pir_status status;        /* of the item with the least number that failed, in this batch of work */
+    pir_pair_statistics ways;                    /* of its questions, where they are counted */
+    uint32_t told[3], told_contacts, told_again; /* events of each kind, contacts of all, those told again */
+    pir_status status; /* of the item with the least number that failed, in this batch of work */
     uint32_t failed;
 } pir_scene_worker;
 
