@@ -37,11 +37,16 @@ __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, cons
     return PIR_OK;
 }
 
-/* Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled. */
+/*
+ * Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled, but for a P that stands
+ * as it was made, as ground does.
+ */
 static inline bool set_relative_rotation(pir_workspace *workspace, const pir_quat *q, const pir_quat *p) {
     pir_frame *frame = &workspace->frame;
     pir_quat_product product;
-    if (!workspace->relative->find(q, p, &product, &frame->unit, &frame->r))
+    const pir_quat half = {p->x, p->y, p->z, 0.5 * p->w};
+    const bool stands = pir_quat_is_identity(*p) && p->w == 1;
+    if (!workspace->relative->find(q, stands ? &half : p, &product, &frame->unit, &frame->r))
         return false;
     pir_rotation_set_factors(&workspace->rotation, &product, *q, *p);
     pir_frame_set_given(frame, product.whole, product.rest);

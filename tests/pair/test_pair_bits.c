@@ -205,8 +205,58 @@ static void a_pair_answers_as_the_query_on_its_difference(void **state) {
     pir_workspace_destroy(bench.workspace);
 }
 
+/*
+ * P stands as it was made, with the quaternion (0, 0, 0, 1) or twice that, and Q is turned: the same bits, though the
+ * one is taken as it comes and the other scaled, with GMP where numbers are close.
+ */
+static void a_body_that_stands_answers_by_any_multiple_of_its_quaternion(void **state) {
+    (void)state;
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    for (uint64_t number = 0; number < 200; number++) {
+        test_random random = test_random_case("standing", number);
+        exact_scene scene;
+        exact_scene_make(&random, number % 60, &scene);
+        pir_polytope *p = test_polytope(&scene.points_p), *q = test_polytope(&scene.points_q);
+        const double size = test_size_of(p) + test_size_of(q);
+        pir_pair *pair[2] = {NULL, NULL};
+        for (int k = 0; k < 2; k++)
+            (void)pir_pair_create(p, q, NULL, &pair[k]);
+        for (int i = 0; i < 20 && pair[0] && pair[1]; i++) {
+            pir_pair_input input = pir_pair_input_default();
+            pir_query_result result[2];
+            pir_contact contact[2][ROOM];
+            size_t count[2] = {0, 0};
+            const pir_quat turn = i % 2 ? test_general_rotation(&random) : exact_rotation(&random, &scene);
+            // of length 1, as most are, or as it comes
+            const double n = sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w);
+            const double by = i % 4 == 1 ? 1 / n : 1;
+            input.pose_q.rotation = (pir_quat){by * turn.x, by * turn.y, by * turn.z, by * turn.w};
+            const pir_vec3 way = test_random_direction(&random);
+            input.pose_q.translation = (pir_vec3){0.6 * size * way.x, 0.6 * size * way.y, 0.6 * size * way.z};
+            for (int k = 0; k < 2; k++) {
+                input.pose_p.rotation = (pir_quat){0, 0, 0, k + 1};
+                assert_int_equal(pir_pair_signed_distance(pair[k], workspace, &input, &result[k]), PIR_OK);
+                assert_int_equal(pir_pair_manifold(pair[k], workspace, &input, &result[k], ROOM, contact[k], &count[k]),
+                                 PIR_OK);
+            }
+            assert_true(test_same_result(&result[0], &result[1]));
+            assert_int_equal(count[0], count[1]);
+            assert_memory_equal(contact[0], contact[1], count[0] * sizeof **contact);
+        }
+        for (int k = 0; k < 2; k++)
+            pir_pair_destroy(pair[k]);
+        pir_polytope_release(p);
+        pir_polytope_release(q);
+    }
+    pir_workspace_destroy(workspace);
+}
+
 int main(void) {
     test_print_seed();
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_pair_answers_as_the_query_on_its_difference)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_pair_answers_as_the_query_on_its_difference),
+        cmocka_unit_test(a_body_that_stands_answers_by_any_multiple_of_its_quaternion),
+    };
     return cmocka_run_group_tests_name("pairs and sums", tests, NULL, NULL);
 }
