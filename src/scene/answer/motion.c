@@ -7,8 +7,9 @@
 #include "scene/answer/share.h"
 #include "scene/world/grow.h"
 
-/* How many bodies are worth another thread. */
-#define WORTH_MORE 64
+/* How many bodies are worth another thread: to make their boxes, and to bring them to places that are made. */
+#define WORTH_MORE  64
+#define WORTH_MOVES 256
 
 /* The place of a moved body, and the boxes of its pieces there. */
 static pir_status make_place(pir_scene *scene, pir_scene_moved *moved) {
@@ -97,7 +98,7 @@ void pir_scene_move_bodies(pir_scene *scene) {
     pir_scene_lists *lists = &scene->lists;
     if (lists->moved_count == 0)
         return;
-    pir_scene_share(scene, lists->moved_count, WORTH_MORE, move_items);
+    pir_scene_share(scene, lists->moved_count, WORTH_MOVES, move_items);
     const pir_scene_moved *last = &lists->moved[lists->moved_count - 1];
     const uint32_t pieces = last->first + scene->bodies.body[last->body].pieces;
     for (uint32_t i = 0; i < pieces; i++) {
