@@ -597,10 +597,34 @@ static bool finish(pir_task *task, const struct overlap *overlap, enum about abo
 static bool by_surface(pir_task *task) {
     const pir_surface *surface = pir_pair_task_of(task)->pair->surface;
     pir_facet facet;
-    if (!task->was_deep || !surface || surface->count == 0)
+    if (!task->was_deep || task->same.is_far || !surface || surface->count == 0)
         return false;
     const struct overlap overlap = overlap_of(task);
     return finish(task, &overlap, place(&overlap) ? ABOUT_X : repair(&overlap, &facet), &facet);
+}
+
+/* Three vertices of a facet of D, and the one farthest behind it. */
+static pir_simplex behind(const pir_frame *frame, const pir_facet *facet) {
+    const pir_vec3 n = pir_vec_scale(facet->n, -1), back = pir_mat_apply_transposed(&frame->r, n);
+    pir_simplex simplex = {.tried = 4};
+    pir_facet_simplex(frame, facet->piece, &simplex);
+    simplex.a[3] = pir_climb(frame->p.polytope, back, frame->p.landmarks[pir_landmark_of(back)]);
+    simplex.b[3] = pir_climb(frame->q.polytope, n, frame->q.landmarks[pir_landmark_of(n)]);
+    return simplex;
+}
+
+/* By a new surface, from a facet that holds the foot of x, behind which x is. */
+static bool by_facet(pir_task *task) {
+    pir_pair *pair = pir_pair_task_of(task)->pair;
+    pir_facet facet;
+    if (!task->has_same)
+        return false;
+    const struct overlap overlap = overlap_of(task);
+    const pir_simplex simplex = behind(task->frame, &task->same.facet);
+    bool done = finish(task, &overlap, begin_surface(&overlap, &simplex, &facet), &facet);
+    if (pair->surface && !task->hint->deep)
+        pair->surface->count = 0;
+    return done;
 }
 
 /* By a new surface: from the descent's last simplex, or widened from one about a point inside of D. */
@@ -682,5 +706,5 @@ static bool by_axes(pir_task *task) {
 }
 
 bool pir_pair_depth(pir_task *task, bool anew) {
-    return anew ? by_new_surface(task) : by_axes(task) || by_surface(task);
+    return anew ? by_new_surface(task) : by_axes(task) || by_surface(task) || by_facet(task);
 }

@@ -144,7 +144,7 @@ static bool walk(pir_task *task) {
         return true;
     }
     // a descent begins there
-    if (is == PIR_SAME_BESIDE)
+    if (is == PIR_SAME_BESIDE || task->same.is_far)
         pir_task_keep_facet(task, &task->same.facet);
     task->in_doubt = last == PIR_SAME_IN_DOUBT;
     return false;

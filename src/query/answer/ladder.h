@@ -69,7 +69,7 @@ struct pir_task {
 
 /* Begins a task. The caller sets the members up to may_deep, and clears the result. */
 static inline void pir_task_begin(pir_task *task) {
-    task->is_outside = task->has_same = task->in_doubt = false;
+    task->is_outside = task->has_same = task->in_doubt = task->same.is_far = false;
     task->simplex.count = task->simplex.tried = 0;
     task->decided.kind = PIR_NO_PIECE;
 }

@@ -30,6 +30,7 @@ typedef struct pir_same_facet {
     double margin; /* the foot of x is at least this far from the rim, above 0 */
     pir_touch touch;
     uint32_t side; /* of two edges, where the rim is nearest: see below */
+    bool is_far;   /* a way to it began at a facet towards x */
 } pir_same_facet;
 
 /* Whether the features at hand make a facet of D that holds the foot of x. */

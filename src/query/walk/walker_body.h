@@ -194,6 +194,9 @@ WALK_TARGET static inline pir_same prove(const pir_frame *frame, const pir_place
 /* A way over more facets than this takes longer than a search; from step to step there are few. */
 #define MOST_FACETS 8
 
+/* The foot is far from a facet when it is this far beyond its rim, relative to the reach. */
+#define FAR_AWAY 0x1p-3
+
 /* The arc of an edge towards its end at a facet: from that on its left to that on its right, or back. */
 struct arc {
     uint32_t edge, facet;
@@ -273,12 +276,47 @@ WALK_TARGET static pir_piece near_edges(const pir_frame *frame, pir_piece piece)
     return (pir_piece){PIR_FACET_VF, p->origin[half], g};
 }
 
+/* The steepest along n of a vertex's facets. *ret_most is how steep it is. */
+static uint32_t steepest_facet(const pir_polytope *p, uint32_t vertex, pir_vec3 n, double *ret_most) {
+    uint32_t best = p->left[p->ring_start[vertex]];
+    *ret_most = -HUGE_VAL;
+    for (uint32_t h = p->ring_start[vertex]; h < p->ring_start[vertex + 1]; h++) {
+        const double along = pir_vec_dot(n, p->normal[p->left[h]]);
+        best = along > *ret_most ? p->left[h] : best;
+        *ret_most = along > *ret_most ? along : *ret_most;
+    }
+    return best;
+}
+
+/* A facet of either body at the vertex of D that is farthest towards x. */
+WALK_TARGET static pir_piece towards(const pir_frame *frame, const pir_placement *placement) {
+    const pir_vec3 n = pir_vec_scale(placement->x, 1 / sqrt(pir_vec_dot(placement->x, placement->x)));
+    const pir_vec3 back = pir_mat_apply_transposed(&frame->r, n);
+    const uint32_t a = climb(&frame->p, back, frame->p.landmarks[pir_landmark_of(back)]);
+    const uint32_t b = climb(&frame->q, n, frame->q.landmarks[pir_landmark_of(n)]);
+    double of_p, of_q;
+    const uint32_t f = steepest_facet(frame->p.polytope, a, back, &of_p);
+    const uint32_t g = steepest_facet(frame->q.polytope, b, n, &of_q);
+    return of_p > of_q ? (pir_piece){PIR_FACET_FV, f, b} : (pir_piece){PIR_FACET_VF, a, g};
+}
+
+/* The next facet on the way, once by way of one towards x, where the foot is far away. */
+WALK_TARGET static inline pir_piece next_on_way(const pir_frame *frame, const pir_placement *placement, pir_same is,
+                                                pir_same_facet *same) {
+    if (is != PIR_SAME_BESIDE)
+        return near_edges(frame, same->facet.piece);
+    if (!same->is_far && same->margin < -FAR_AWAY * placement->reach) {
+        same->is_far = true;
+        return towards(frame, placement);
+    }
+    return across(frame, placement, same);
+}
+
 WALK_TARGET static inline pir_same follow(const pir_frame *frame, const pir_placement *placement, pir_same is,
                                           pir_same_facet *same) {
     pir_piece before = {PIR_NO_PIECE, 0, 0};
     for (uint32_t steps = MOST_FACETS; steps > 0 && is <= PIR_SAME_BESIDE; steps--) {
-        const pir_piece last = same->facet.piece,
-                        next = is == PIR_SAME_BESIDE ? across(frame, placement, same) : near_edges(frame, last);
+        const pir_piece last = same->facet.piece, next = next_on_way(frame, placement, is, same);
         // to and fro across an edge of D, which the nearest point is on
         if (next.kind == before.kind && next.first == before.first && next.second == before.second)
             break;
