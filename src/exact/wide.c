@@ -54,15 +54,16 @@ void pir_int256_add_product(pir_int256 *sum, pir_two_limbs a, pir_two_limbs b) {
     add_if(sum->limb, product, 4, of_a ^ of_b);
 }
 
-void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, int64_t b) {
-    mp_limb_t of_a = mask_of(a), of_b = b < 0 ? ~(mp_limb_t)0 : 0, size[4], product[5];
+void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, pir_two_limbs b) {
+    mp_limb_t of_a = mask_of(a), of_b = b < 0 ? ~(mp_limb_t)0 : 0, size[4], product[6];
+    pir_two_limbs_unsigned y = size_of(b);
     negate_if(size, a->limb, 4, of_a);
-    multiply_row(product, size, 4, b < 0 ? 0 - (mp_limb_t)b : (mp_limb_t)b, false);
+    multiply_row(product, size, 4, (mp_limb_t)y, false);
+    multiply_row(product + 1, size, 4, (mp_limb_t)(y >> 64), true);
     add_if(sum->limb, product, 4, of_a ^ of_b);
 }
 
-/* sum += a·b. */
-static void add_long_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b) {
+void pir_int512_add_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b) {
     mp_limb_t of_a = mask_of(a), of_b = mask_of(b), x[4], y[4], product[8];
     negate_if(x, a->limb, 4, of_a);
     negate_if(y, b->limb, 4, of_b);
@@ -76,7 +77,7 @@ static void add_long_product(pir_int512 *sum, const pir_int256 *a, const pir_int
 pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]) {
     pir_int512 sum = {{0}};
     for (int k = 0; k < 3; k++)
-        add_long_product(&sum, &a[k], &b[k]);
+        pir_int512_add_product(&sum, &a[k], &b[k]);
     return sum;
 }
 

@@ -37,7 +37,10 @@ static inline int pir_int512_sign(const pir_int512 *a) {
 void pir_int256_add_product(pir_int256 *sum, pir_two_limbs a, pir_two_limbs b);
 
 /* sum += a·b, where the product is within 255 bits. */
-void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, int64_t b);
+void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, pir_two_limbs b);
+
+/* sum += a·b. */
+void pir_int512_add_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b);
 
 /* a·b for vectors. */
 pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]);
@@ -62,18 +65,22 @@ static inline bool pir_int_get_two(const pir_int *a, uint32_t bits, pir_two_limb
     return true;
 }
 
-/* dst = a; room: four limbs. */
-static inline void pir_int_set_wide(pir_int *dst, const pir_int256 *a) {
-    const bool minus = a->limb[3] >> 63;
-    pir_int_check_room(dst->room, 4);
+/* dst = a, of `count` limbs in two's complement; room: as many. */
+static inline void pir_int_set_limbs(pir_int *dst, const mp_limb_t *a, int32_t count) {
+    const bool minus = a[count - 1] >> 63;
+    pir_int_check_room(dst->room, (uint32_t)count);
     if (minus)
-        mpn_neg(dst->limb, a->limb, 4);
+        mpn_neg(dst->limb, a, count);
     else
-        mpn_copyi(dst->limb, a->limb, 4);
-    int32_t length = 4;
+        mpn_copyi(dst->limb, a, count);
+    int32_t length = count;
     while (length > 0 && dst->limb[length - 1] == 0)
         length--;
     dst->size = minus ? -length : length;
+}
+
+static inline void pir_int_set_wide(pir_int *dst, const pir_int256 *a) {
+    pir_int_set_limbs(dst, a->limb, 4);
 }
 #endif
 

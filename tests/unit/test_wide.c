@@ -40,19 +40,20 @@ static void set_wide(mpz_t z, const mp_limb_t *limb, size_t count) {
     }
 }
 
-/* Sums of products of 92 bits, times 62: up to 250, whose products stay below 2^511. */
+/* Sums of products of 92 bits, times 62, or of 44 times 110: up to 250, whose products stay below 2^511. */
 static void check_case(test_random *random, pir_int256 v[3], mpz_t z[3], mpz_t a, mpz_t b) {
     for (int k = 0; k < 3; k++) {
+        const bool wide = test_random_below(random, 2);
         v[k] = (pir_int256){{0}};
         mpz_set_ui(z[k], 0);
         for (int term = 0; term < 4; term++) {
-            pir_two_limbs x = random_two(random, 92), y = random_two(random, 92);
+            pir_two_limbs x = random_two(random, 92), y = random_two(random, wide ? 44 : 92);
             pir_int256_add_product(&v[k], x, y);
             set_two(a, x);
             set_two(b, y);
             mpz_addmul(z[k], a, b);
         }
-        int64_t by = (int64_t)random_two(random, 62);
+        pir_two_limbs by = random_two(random, wide ? 110 : 62);
         pir_int256 scaled = {{0}};
         pir_int256_add_scaled(&scaled, &v[k], by);
         set_two(a, by);

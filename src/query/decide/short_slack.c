@@ -15,6 +15,17 @@
  * Where coordinates are small integers, as those of boxes are, n and M p take two limbs. With N, v, e and e' of b, c,
  * d and d' bits, M v is below 3 · 2^(b + c), and e' × M e below 3 · 2^(b + d + d'), and so is every sum on the way.
  * These are brief where that is at most BRIEF_BITS bits: below 2^126, and n·n below 2^254.
+ *
+ * Where Q is turned too, the world is a better place than Q's frame, where P's rotation has twice as many bits. Let
+ * M_P, N_P, M_Q and N_Q be of both as given, and T = q's translation less p's. Since M a × M b = N M(a × b) and
+ * M a · M b = N² a·b, the n·W of placed.h is F s with
+ *
+ *     s = N_P N_Q m·p + M_P m · (M_Q q + N_Q T)                             F = N_P N_Q²     for a facet of P,
+ *     s = N_P N_Q m·q + M_Q m · (M_P p + N_P T)                             F = N_Q          for a facet of Q,
+ *     s = M_Q d · (M_P (e × p) + M_P e × T) + M_P e · M_Q (q × d)           F = N_P N_Q²     for two edges,
+ *
+ * and n·n = (N_P N_Q)² m·m, m·m, and |M_Q d × M_P e|². With m, p, q and T below 2^122 a vector in s is below 2^249, s
+ * below 2^501. Of edges e × p, q × d and M_P e × T are refused where they may be longer than that.
  */
 #include "query/decide/short_slack.h"
 
@@ -72,8 +83,8 @@ static inline int low_bit(const double *c, int count) {
 }
 
 /* As set_short of exact/rotation.c. */
-static inline bool get_turning(const pir_rotation *rotation, turning *to) {
-    const double c[4] = {rotation->given.x, rotation->given.y, rotation->given.z, rotation->given.w};
+static inline bool get_turning(pir_quat given, turning *to) {
+    const double c[4] = {given.x, given.y, given.z, given.w};
     int low = low_bit(c, 4);
     pir_two_limbs q[4], square[4];
     for (int k = 0; k < 4; k++) {
@@ -244,33 +255,194 @@ static bool get_products(const pir_frame *frame, const turning *by, pir_piece pi
     return true;
 }
 
-/* The steps of facet.c from integers to a number: the slack in lengths of the frame. */
-static double number_of(const pir_frame *frame, const pir_int512 *dot, const pir_int512 *square, pir_two_limbs norm,
-                        int exponent) {
-    mp_limb_t limbs[2];
-    pir_int n = {limbs, 0, 2};
-    pir_int_set_two(&n, norm);
-    pir_real of_dot, of_square;
-    of_dot.m = pir_int512_to_double(dot, &of_dot.e);
-    of_square.m = pir_int512_to_double(square, &of_square.e);
-    pir_real unit = pir_real_over((pir_real){0.5, 1 + exponent - frame->exponent}, pir_real_of(&n));
-    return pir_real_double(pir_real_times(pir_real_over(of_dot, pir_real_root(of_square)), unit));
+/* The steps of facet.c from n·W, n·n and what one unit of W is over, to the slack in lengths of the frame. */
+static double number_of(const pir_frame *frame, pir_real dot, pir_real square, pir_real over, int exponent) {
+    pir_real unit = pir_real_over((pir_real){0.5, 1 + exponent - frame->exponent}, over);
+    return pir_real_double(pir_real_times(pir_real_over(dot, pir_real_root(square)), unit));
 }
 
-bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
-                     double *ret_slack) {
+static pir_real real_of_two(pir_two_limbs a) {
+    mp_limb_t limbs[2];
+    pir_int n = {limbs, 0, 2};
+    pir_int_set_two(&n, a);
+    return pir_real_of(&n);
+}
+
+static pir_real real_of_wide(const pir_int512 *a) {
+    pir_real real;
+    real.m = pir_int512_to_double(a, &real.e);
+    return real;
+}
+
+/* --- Q as it stands --- */
+
+static bool slack_at_rest(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
+                          double *ret_slack) {
     const pir_frame *frame = exact->frame;
     turning by;
     int exponent;
     pir_int256 corner[3] = {{{0}}, {{0}}, {{0}}};
     pir_int512 dot, square;
-    if (exact->world || exact->rotation->relative || !get_turning(exact->rotation, &by) ||
+    if (!get_turning(exact->rotation->given, &by) ||
         !get_corner(frame, &by, translation, facet, corner, &exponent) ||
         !get_products(frame, &by, facet->piece, corner, &dot, &square))
         return false;
     *ret_sign = pir_int512_sign(&dot);
-    *ret_slack = number_of(frame, &dot, &square, by.norm, exponent);
+    *ret_slack = number_of(frame, real_of_wide(&dot), real_of_wide(&square), real_of_two(by.norm), exponent);
     return true;
+}
+
+/* --- Q turned too --- */
+
+/* What s is made of. */
+typedef struct turned_both {
+    turning by_p, by_q;
+    two3 p, q, t; /* in units of 2^exponent */
+    int exponent;
+    pir_int256 norm; /* N_P N_Q */
+} turned_both;
+
+static bool get_both(const pir_exact *exact, const pir_facet *facet, turned_both *to) {
+    const pir_frame *frame = exact->frame;
+    const pir_vec3 at_p = exact->world->translation_p, at_q = exact->world->translation_q;
+    const double from[3] = {at_p.x, at_p.y, at_p.z}, t[3] = {at_q.x, at_q.y, at_q.z};
+    int of_p, of_q, low = low_bit(from, 3), other = low_bit(t, 3);
+    if (!get_turning(exact->rotation->factor[1], &to->by_p) || !get_turning(exact->rotation->factor[0], &to->by_q) ||
+        !get_exponent(&frame->p.polytope->scale, &of_p) || !get_exponent(&frame->q.polytope->scale, &of_q))
+        return false;
+    low = other < low ? other : low;
+    low = of_p < low ? of_p : low;
+    low = of_q < low ? of_q : low;
+    pir_int3 va = pir_vertex_exact(frame->p.polytope, facet->a), vb = pir_vertex_exact(frame->q.polytope, facet->b);
+    if (!get_unshifted(&va, of_p - low, VECTOR_BITS, &to->p) || !get_unshifted(&vb, of_q - low, VECTOR_BITS, &to->q))
+        return false;
+    shift_vector(&to->p, of_p - low);
+    shift_vector(&to->q, of_q - low);
+    for (int k = 0; k < 3; k++) {
+        pir_two_limbs less;
+        if (!get_double(t[k], low, VECTOR_BITS - 1, &to->t.c[k]) || !get_double(from[k], low, VECTOR_BITS - 1, &less))
+            return false;
+        to->t.c[k] -= less;
+    }
+    to->exponent = low;
+    to->norm = (pir_int256){{0}};
+    pir_int256_add_product(&to->norm, to->by_p.norm, to->by_q.norm);
+    return true;
+}
+
+/* sum += N_P N_Q m·v + M m · (M' v' + N' T), M and N being of m's body, M' and N' of the other. */
+static void add_facet(const turned_both *both, const two3 *m, bool of_p, pir_int512 *sum) {
+    const turning *own = of_p ? &both->by_p : &both->by_q, *other = of_p ? &both->by_q : &both->by_p;
+    const two3 *v = of_p ? &both->p : &both->q, *across = of_p ? &both->q : &both->p;
+    pir_int256 height = {{0}}, normal[3] = {{{0}}, {{0}}, {{0}}}, way[3] = {{{0}}, {{0}}, {{0}}};
+    turn(own, m, normal);
+    turn(other, across, way);
+    for (int k = 0; k < 3; k++) {
+        pir_int256_add_product(&height, m->c[k], v->c[k]);
+        pir_int256_add_product(&way[k], other->norm, both->t.c[k]);
+        pir_int512_add_product(sum, &normal[k], &way[k]);
+    }
+    pir_int512_add_product(sum, &height, &both->norm);
+}
+
+/* a × b, where it is short for certain. */
+static bool cross_short(const two3 *a, const two3 *b, two3 *to) {
+    if (bits_of(a->c) + bits_of(b->c) + 1 > VECTOR_BITS)
+        return false;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        to->c[k] = a->c[i] * b->c[j] - a->c[j] * b->c[i];
+    }
+    return true;
+}
+
+/* sum += s of two edges; sets |M_Q d × M_P e|², of 17 limbs. False where the integers would be too long. */
+static bool add_edges(const turned_both *both, const two3 *e, const two3 *d, pir_int512 *sum, pir_int *square) {
+    two3 of_p, of_q;
+    pir_int256 edge_p[3] = {{{0}}, {{0}}, {{0}}}, edge_q[3] = {{{0}}, {{0}}, {{0}}};
+    pir_int256 way_p[3] = {{{0}}, {{0}}, {{0}}}, way_q[3] = {{{0}}, {{0}}, {{0}}}, back[3] = {{{0}}, {{0}}, {{0}}};
+    if (!cross_short(e, &both->p, &of_p) || !cross_short(&both->q, d, &of_q) ||
+        both->by_p.bits + bits_of(e->c) + bits_of(both->t.c) + 3 > 250)
+        return false;
+    turn(&both->by_p, e, edge_p);
+    turn(&both->by_p, &(two3){{-e->c[0], -e->c[1], -e->c[2]}}, back);
+    turn(&both->by_q, d, edge_q);
+    turn(&both->by_p, &of_p, way_p);
+    turn(&both->by_q, &of_q, way_q);
+    mp_limb_t limbs[8], product[16];
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        pir_int256_add_scaled(&way_p[k], &edge_p[i], both->t.c[j]);
+        pir_int256_add_scaled(&way_p[k], &edge_p[j], -both->t.c[i]);
+        pir_int512_add_product(sum, &edge_q[k], &way_p[k]);
+        pir_int512_add_product(sum, &edge_p[k], &way_q[k]);
+        pir_int512 n = {{0}};
+        pir_int512_add_product(&n, &edge_q[i], &edge_p[j]);
+        pir_int512_add_product(&n, &edge_q[j], &back[i]);
+        pir_int of_n = {limbs, 0, 8}, part = {product, 0, 16};
+        pir_int_set_limbs(&of_n, n.limb, 8);
+        pir_int_mul(&part, &of_n, &of_n);
+        pir_int_add(square, square, &part);
+    }
+    return true;
+}
+
+/* a·b·c·… of a number and `count` others that are above 0, in so many limbs. */
+#define PRODUCT_LIMBS 20
+static pir_real real_of_product(const pir_int *a, const pir_int *others, int count) {
+    mp_limb_t limbs[2][PRODUCT_LIMBS];
+    pir_int to[2] = {{limbs[0], 0, PRODUCT_LIMBS}, {limbs[1], 0, PRODUCT_LIMBS}};
+    const pir_int *last = a;
+    for (int k = 0; k < count; k++, last = &to[(k + 1) % 2])
+        pir_int_mul(&to[k % 2], last, &others[k]);
+    return pir_real_of(last);
+}
+
+static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *ret_sign, double *ret_slack) {
+    const pir_polytope *p = exact->frame->p.polytope, *q = exact->frame->q.polytope;
+    const pir_piece piece = facet->piece;
+    turned_both both;
+    two3 m = {{0, 0, 0}}, d = {{0, 0, 0}};
+    pir_int512 sum = {{0}};
+    mp_limb_t limbs[8], squares[18], norms[4], of_norms[2][2];
+    pir_int s = {limbs, 0, 8}, square = {squares, 0, 18}, norm = {norms, 0, 4};
+    pir_int norm_p = {of_norms[0], 0, 2}, norm_q = {of_norms[1], 0, 2};
+    if (!get_both(exact, facet, &both))
+        return false;
+    if (piece.kind == PIR_FACET_EE) {
+        pir_int3 of_p = pir_half_exact(p, p->edge_half[piece.first]), of_q = pir_half_exact(q, piece.second);
+        if (!get_vector(&of_p, EDGE_BITS, &m) || !get_vector(&of_q, EDGE_BITS, &d) ||
+            !add_edges(&both, &m, &d, &sum, &square))
+            return false;
+    } else {
+        const bool by_p = piece.kind == PIR_FACET_FV;
+        pir_int3 own = by_p ? pir_normal_exact(p, piece.first) : pir_normal_exact(q, piece.second);
+        if (!get_vector(&own, VECTOR_BITS, &m))
+            return false;
+        add_facet(&both, &m, by_p, &sum);
+        const pir_int512 of_m = pir_two_square(m.c);
+        pir_int_set_limbs(&square, of_m.limb, 8);
+    }
+    pir_int_set_limbs(&s, sum.limb, 8);
+    pir_int_set_limbs(&norm, both.norm.limb, 4);
+    pir_int_set_two(&norm_p, both.by_p.norm);
+    pir_int_set_two(&norm_q, both.by_q.norm);
+    const pir_int factors[2] = {norm_q, norm};
+    const pir_real dot = real_of_product(&s, factors, piece.kind == PIR_FACET_VF ? 1 : 2);
+    const pir_real of_n =
+        real_of_product(&square, (const pir_int[2]){norm, norm}, piece.kind == PIR_FACET_FV ? 2 : 0);
+    const pir_real over = pir_real_times(pir_real_of(&norm), pir_real_of(&norm_q));
+    *ret_sign = pir_int_sign(&s);
+    *ret_slack = number_of(exact->frame, dot, of_n, over, both.exponent);
+    return true;
+}
+
+bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
+                     double *ret_slack) {
+    if (exact->world && exact->rotation->relative)
+        return slack_in_world(exact, facet, ret_sign, ret_slack);
+    return !exact->world && !exact->rotation->relative &&
+           slack_at_rest(exact, translation, facet, ret_sign, ret_slack);
 }
 
 #else
