@@ -2,15 +2,15 @@
 /*
  * Slacks in integers of fixed length: see short_slack.h.
  *
- * With q an integer quaternion below 2^61 a component, the entries of M are below N = |q|² ≤ 2^124, and |M v| =
- * N |v|. Vertices p of P, and the difference d of one of Q and the translation, are integers below 2^122 on one power
- * of two. Then, componentwise,
+ * With q an integer quaternion of N = |q|² < 2^126, the entries of M are at most N, and |M v| = N |v|. Vertices p of
+ * P, and the difference d of one of Q and the translation, are integers below 2^122 on one power of two. Then,
+ * componentwise,
  *
- *     W = M p + N d          below √3 · 2^246 + 2^246 < 2^248,
- *     n = M m, or m          below √3 · 2^246 < 2^247 for a facet normal m below 2^122,
- *     n = e' × M e           below 2 · 2^62 · √3 · 2^186 < 2^250 for edges e, e' below 2^62,
+ *     W = M p + N d          below √3 · 2^248 + 2^248 < 2^250,
+ *     n = M m, or m          below √3 · 2^248 < 2^249 for a facet normal m below 2^122,
+ *     n = e' × M e           below 2 · 2^62 · √3 · 2^188 < 2^252 for edges e, e' below 2^62,
  *
- * and n·W and n·n are below 3 · 2^500.
+ * and n·W and n·n are below 3 · 2^504.
  *
  * Where coordinates are small integers, as those of boxes are, n and M p take two limbs. With N, v, e and e' of b, c,
  * d and d' bits, M v is below 3 · 2^(b + c), and e' × M e below 3 · 2^(b + d + d'), and so is every sum on the way.
@@ -24,8 +24,8 @@
  *     s = N_P N_Q m·q + M_Q m · (M_P p + N_P T)                             F = N_Q          for a facet of Q,
  *     s = M_Q d · (M_P (e × p) + M_P e × T) + M_P e · M_Q (q × d)           F = N_P N_Q²     for two edges,
  *
- * and n·n = (N_P N_Q)² m·m, m·m, and |M_Q d × M_P e|². With m, p, q and T below 2^122 a vector in s is below 2^249, s
- * below 2^501. Of edges e × p, q × d and M_P e × T are refused where they may be longer than that.
+ * and n·n = (N_P N_Q)² m·m, m·m, and |M_Q d × M_P e|². With m, p, q and T below 2^122 a vector in s is below
+ * 2^250, s below 2^503. Of edges e × p, q × d and M_P e × T are refused where they may be longer than that.
  */
 #include "query/decide/short_slack.h"
 
@@ -33,6 +33,7 @@
 
 #if PIR_HAVE_WIDE
 
+#define NORM_BITS   126
 #define VECTOR_BITS 122
 #define EDGE_BITS   62
 #define BRIEF_BITS  124
@@ -82,17 +83,21 @@ static inline int low_bit(const double *c, int count) {
     return low;
 }
 
-/* As set_short of exact/rotation.c. */
+/* As set_short of exact/rotation.c does, where N is short. */
 static inline bool get_turning(pir_quat given, turning *to) {
     const double c[4] = {given.x, given.y, given.z, given.w};
     int low = low_bit(c, 4);
     pir_two_limbs q[4], square[4];
+    pir_two_limbs_unsigned norm = 0;
     for (int k = 0; k < 4; k++) {
-        if (!get_double(c[k], low, 61, &q[k]))
+        if (!get_double(c[k], low, 63, &q[k]))
             return false;
         square[k] = q[k] * q[k];
+        norm += (pir_two_limbs_unsigned)square[k];
     }
-    to->norm = square[0] + square[1] + square[2] + square[3];
+    if (norm >> NORM_BITS)
+        return false;
+    to->norm = (pir_two_limbs)norm;
     to->bits = bits_of((const pir_two_limbs[3]){to->norm, 0, 0});
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -283,8 +288,7 @@ static bool slack_at_rest(const pir_exact *exact, pir_vec3 translation, const pi
     int exponent;
     pir_int256 corner[3] = {{{0}}, {{0}}, {{0}}};
     pir_int512 dot, square;
-    if (!get_turning(exact->rotation->given, &by) ||
-        !get_corner(frame, &by, translation, facet, corner, &exponent) ||
+    if (!get_turning(exact->rotation->given, &by) || !get_corner(frame, &by, translation, facet, corner, &exponent) ||
         !get_products(frame, &by, facet->piece, corner, &dot, &square))
         return false;
     *ret_sign = pir_int512_sign(&dot);
@@ -294,7 +298,7 @@ static bool slack_at_rest(const pir_exact *exact, pir_vec3 translation, const pi
 
 /* --- Q turned too --- */
 
-/* What s is made of. */
+/* The integers that s is made of. */
 typedef struct turned_both {
     turning by_p, by_q;
     two3 p, q, t; /* in units of 2^exponent */
@@ -429,8 +433,7 @@ static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *
     pir_int_set_two(&norm_q, both.by_q.norm);
     const pir_int factors[2] = {norm_q, norm};
     const pir_real dot = real_of_product(&s, factors, piece.kind == PIR_FACET_VF ? 1 : 2);
-    const pir_real of_n =
-        real_of_product(&square, (const pir_int[2]){norm, norm}, piece.kind == PIR_FACET_FV ? 2 : 0);
+    const pir_real of_n = real_of_product(&square, (const pir_int[2]){norm, norm}, piece.kind == PIR_FACET_FV ? 2 : 0);
     const pir_real over = pir_real_times(pir_real_of(&norm), pir_real_of(&norm_q));
     *ret_sign = pir_int_sign(&s);
     *ret_slack = number_of(exact->frame, dot, of_n, over, both.exponent);
@@ -441,8 +444,7 @@ bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_fac
                      double *ret_slack) {
     if (exact->world && exact->rotation->relative)
         return slack_in_world(exact, facet, ret_sign, ret_slack);
-    return !exact->world && !exact->rotation->relative &&
-           slack_at_rest(exact, translation, facet, ret_sign, ret_slack);
+    return !exact->world && !exact->rotation->relative && slack_at_rest(exact, translation, facet, ret_sign, ret_slack);
 }
 
 #else

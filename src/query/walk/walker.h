@@ -18,6 +18,9 @@
  * Where x is inside of D, each facet on the way has less slack than the one before: the foot is beyond the next one's
  * plane. So none comes twice. From outside the nearest point may lie on an edge of D, and the way leads to and fro
  * across that, or about a vertex: then it is given up. Rounding may lead astray; but what is given is proven.
+ *
+ * Where the foot is far beyond the rim, as after a jump of the poses, the way goes on from a facet at the vertex of D
+ * that is farthest towards x. Once is enough: from there few steps lead to the foot.
  */
 #ifndef PIR_QUERY_WALK_WALKER_H
 #define PIR_QUERY_WALK_WALKER_H

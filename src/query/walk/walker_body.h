@@ -191,8 +191,8 @@ WALK_TARGET static inline pir_same prove(const pir_frame *frame, const pir_place
 
 /* --- from facet to facet --- */
 
-/* A way over more facets than this takes longer than a search; from step to step there are few. */
-#define MOST_FACETS 8
+/* A way over more facets than this takes longer than a search; from step to step there are few, after a jump more. */
+#define MOST_FACETS 16
 
 /* The foot is far from a facet when it is this far beyond its rim, relative to the reach. */
 #define FAR_AWAY 0x1p-3
