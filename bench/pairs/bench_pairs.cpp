@@ -11,7 +11,9 @@
 // Then what a cold pair's first answer takes, and many pairs at once, each turning. Lines go to pairs.csv, those of
 // motions of both bodies and of different bodies to pairs_motions.csv.
 //
-//     bench_pairs FOLDER
+// BODY leaves out all others but "all"; SEED, from 1 on, gives other bodies of points and other motions.
+//
+//     bench_pairs FOLDER [BODY [SEED]]
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -320,10 +322,14 @@ void run_many(FILE *csv, const char *body, pir_polytope *p, pir_polytope *q, con
 } // namespace
 
 int main(int argc, char **argv) {
-    if (argc < 2 || argc > 3) {
-        std::fprintf(stderr, "usage: bench_pairs FOLDER [BODY]\n");
+    if (argc < 2 || argc > 4) {
+        std::fprintf(stderr, "usage: bench_pairs FOLDER [BODY [SEED]]\n");
         return 2;
     }
+    const std::string only = argc > 2 ? argv[2] : "all";
+    auto is_asked = [&](const char *name) { return only == "all" || only == name; };
+    if (argc > 3)
+        Random::first ^= std::strtoull(argv[3], nullptr, 10) * 0x9e3779b97f4a7c15ull;
     results where = results_new(argv[1]);
     FILE *csv = results_open(&where, "pairs.csv"), *motions = results_open(&where, "pairs_motions.csv");
     double overhead = clock_cost();
@@ -341,7 +347,7 @@ int main(int argc, char **argv) {
         std::fprintf(file, "body,motion,steps,who,median_ns,mean_ns,p99_ns,worst_ns,wrong,frames\n");
     for (auto &body : bodies) {
         pir_polytope *p = body.polytope;
-        if (argc == 3 && std::string(argv[2]) != body.name)
+        if (!is_asked(body.name))
             continue;
         for (int steps : {50, 500, 5000})
             run_both(csv, motions, {body.name, p, p}, frames, steps, overhead);
@@ -353,7 +359,7 @@ int main(int argc, char **argv) {
                             {"sliver and extreme", sliver, extreme},
                             {"sliver and cube", sliver, bodies[0].polytope}};
     for (const Bodies &pair : pairs) {
-        if (argc == 3 && std::string(argv[2]) != pair.name)
+        if (!is_asked(pair.name))
             continue;
         run_both(motions, motions, pair, frames, 500, overhead);
         run_others(motions, pair, frames, overhead);
@@ -361,12 +367,12 @@ int main(int argc, char **argv) {
     pir_polytope_release(sliver);
     pir_polytope_release(extreme);
     pir_polytope *cube = bodies[0].polytope, *twenty = bodies[2].polytope, *gs4 = bodies[5].polytope;
-    if (argc == 2 || std::string(argv[2]) == "rest") {
+    if (is_asked("rest")) {
         run(csv, {"cube", cube, cube}, "spinning", 500, q_stands(spinning(cube, cube, frames, 500, 0)), overhead);
         run(csv, {"cube", cube, cube}, "sunken", 500, q_stands(spinning(cube, cube, frames, 500, 1e-3)), overhead);
         run(csv, {"gs4", gs4, gs4}, "aligned", 500, q_stands(aligned(gs4, gs4, frames, 0.98)), overhead);
     }
-    if (argc == 2 || std::string(argv[2]) == "many")
+    if (is_asked("many"))
         for (int count : {10, 100, 1000, 10000})
             run_many(csv, "20 points", twenty, twenty, hovering(twenty, twenty, frames, 500), count);
     for (auto &body : bodies)

@@ -50,6 +50,8 @@ double size_of(const pir_polytope *p) {
     return most;
 }
 
+uint64_t Random::first = 88172645463325252ull;
+
 double Random::unit() {
     state ^= state << 13;
     state ^= state >> 7;

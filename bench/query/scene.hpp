@@ -16,9 +16,10 @@ struct Pose {
     pir_vec3 t;
 };
 
-// The same numbers everywhere.
+// The same numbers everywhere, from `first`, which is not 0.
 struct Random {
-    uint64_t state = 88172645463325252ull;
+    static uint64_t first;
+    uint64_t state = first;
     double unit(); // from −1 to 1
     pir_vec3 direction();
 };

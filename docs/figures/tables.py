@@ -14,6 +14,11 @@ BODIES = {
 # ---- README ----------------------------------------------------------------------------------------------------------
 
 
+def better_coal(by):
+    coals = [by[who] for who in ("coal warm", "coal cold") if who in by]
+    return min(coals, key=lambda row: float(row["median_ns"]), default=None)
+
+
 def pairs(r):
     def cell(row):
         return f"{both(row, 'median_ns', 'mean_ns')} · {row['wrong']}" if row else "–"
@@ -22,9 +27,7 @@ def pairs(r):
     for body, title in BODIES.items():
         for steps in (500, 50) if body != "icosahedron" else ():
             by = {row["who"]: row for row in r.pairs.all(body=body, motion="hovering", steps=steps)}
-            coals = [by[who] for who in ("coal warm", "coal cold") if who in by]
-            coal = min(coals, key=lambda row: float(row["median_ns"]), default=None)
-            engines = (by["ours pair"], by["ours sum"], coal, by.get("FCL"), by.get("Bullet"))
+            engines = (by["ours pair"], by["ours sum"], better_coal(by), by.get("FCL"), by.get("Bullet"))
             rows.append([f"{title}, {steps}", *map(cell, engines)])
     return markdown(["bodies, frames to a turn", ">Pirouette, pair", ">Pirouette, sum", ">coal 3", ">FCL 0.7",
                      ">Bullet 3.24"], rows)
@@ -41,9 +44,25 @@ def pairs_motions(r):
     for body, title in bodies.items():
         for motion in ("hovering both", "apart both", "deep both", "teleport both"):
             by = {row["who"]: row for row in r.pairs_motions.all(body=body, motion=motion, steps=500)}
-            engines = (by["ours pair"], by["ours manifold"], by.get("box3d manifold"))
+            engines = (by["ours pair"], better_coal(by), by["ours manifold"], by.get("box3d manifold"))
             rows.append([f"{title}, {motion.removesuffix(' both')}", *(cell(row) if row else "–" for row in engines)])
-    return markdown(["bodies, motion of both", ">signed distance", ">cutoff, manifold", ">box3d, manifold"], rows)
+    return markdown(["bodies, motion of both", ">signed distance", ">coal", ">cutoff, manifold", ">box3d, manifold"],
+                    rows)
+
+
+def pairs_growth(r):
+    titles = {"facets": "facets of each body, a signed distance", "facets teleport": "the same, a new pose each time",
+              "pairs": "pairs of 20 points, each", "bodies": "moving bodies of a scene, each"}
+    rows = []
+    for what, title in titles.items():
+        found = r.pairs_growth.all(what=what)
+        for k, row in enumerate(found):
+            last = k == len(found) - 1
+            rows.append(["" if k else title, count(row["count"]),
+                         " / ".join(short(float(row[name]) / 1e3) for name in ("ns", "p99_ns", "worst_ns")),
+                         short(float(row["bytes"]) / 1e6),
+                         f"{row['time_exponent'][:-1]}, {row['bytes_exponent'][:-1]}" if last else ""])
+    return markdown(["", ">how many", ">µs, median / p99 / worst", ">MB", ">exponents of time, bytes"], rows)
 
 
 def query(r):
@@ -422,6 +441,7 @@ def solid_track(r):
 
 
 TABLES = {function.__name__: function for function in (
-    pairs, pairs_motions, query, readme, distances, cgm, extremes, histories, large, mesh_pairs, mesh_contacts,
-    mesh_sliding, scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, impacts, scale, pile, pile_reuse,
-    terrain_reuse, game, slices, slices_read, grid, classify, critical, solids, solid_query, solid_depth, solid_track)}
+    pairs, pairs_motions, pairs_growth, query, readme, distances, cgm, extremes, histories, large, mesh_pairs,
+    mesh_contacts, mesh_sliding, scene_terrain, mesh_octrees, mesh_index, objects, whole, gradients, impacts, scale,
+    pile, pile_reuse, terrain_reuse, game, slices, slices_read, grid, classify, critical, solids, solid_query,
+    solid_depth, solid_track)}
