@@ -674,6 +674,7 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
         return false;
     pir_piece piece = pir_axes_piece(p, q, task->frame, least.at, &n);
     // written in place where nothing is there: avoids a copy
+    other.is_far = task->same.is_far;
     pir_same_facet *same = task->has_same ? &other : &task->same;
     if (task->walker->prove(task->frame, task->placement, piece, same) == PIR_SAME_PROVEN) {
         if (task->has_same)

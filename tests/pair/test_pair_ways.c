@@ -109,6 +109,30 @@ static void a_cylinder_that_stands_on_a_box_is_told_by_its_facet(void **state) {
     }
 }
 
+/* --- poses that are far from those before --- */
+
+/* Both bodies turned by any rotation, P a little above or below contact with Q, each time in another direction. */
+static void a_walk_serves_after_many_jumps(void **state) {
+    (void)state;
+    test_random random = test_random_case("jumps", 0);
+    struct bench bench = bench_make(test_sphere(&random, 200), test_sphere(&random, 150));
+    enum { JUMPS = 300 };
+    for (int k = 0; k < JUMPS; k++) {
+        const pir_vec3 a = test_random_direction(&random), b = test_random_direction(&random),
+                       d = test_random_direction(&random);
+        const double at = 2 + 0.1 * (k % 11 - 6);
+        bench.input.pose_p = (pir_pose){{a.x, a.y, a.z, 0.7}, {at * d.x + b.x, at * d.y + b.y, at * d.z + b.z}};
+        bench.input.pose_q = (pir_pose){{b.x, b.y, b.z, 0.3}, {b.x, b.y, b.z}};
+        ask_ways(&bench, k % 4 == 0, "jumps", k);
+    }
+    pir_pair_statistics statistics = pir_pair_get_statistics(bench.pair);
+    expect(statistics.by_walk > JUMPS / 3 && statistics.by_whole == 0,
+           "%llu of %d by a walk, %llu by a descent, %llu by a depth, %llu by the whole difference",
+           (unsigned long long)statistics.by_walk, JUMPS, (unsigned long long)statistics.by_nearest,
+           (unsigned long long)statistics.by_depth, (unsigned long long)statistics.by_whole);
+    bench_clear(&bench);
+}
+
 /* --- facets that doubles cannot tell apart --- */
 
 static const double turns[7] = {0, 1e-16, 1e-14, 1e-12, 1e-9, 1e-6, 1e-3};
@@ -400,6 +424,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cold_box_laid_flush_on_a_box_is_told_by_a_facet),
         cmocka_unit_test(a_cylinder_that_stands_on_a_box_is_told_by_its_facet),
+        cmocka_unit_test(a_walk_serves_after_many_jumps),
         cmocka_unit_test(equal_prisms_nearly_parallel_need_no_whole_difference),
         cmocka_unit_test(the_facet_beyond_one_a_rounding_wide_is_compared),
         cmocka_unit_test(the_facet_beyond_the_tip_of_a_sliver_is_compared),
