@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Slacks in integers of fixed length are those in integers of any length, to the bit, for facets, vertices and edges of
- * scenes that are aligned, nearly aligned and general, from 1e-150 to 1e150, Q as it stands or turned and moved too;
+ * scenes that are aligned, nearly aligned and general, from 1e-150 to 1e150, Q standing, moved, or turned and moved;
  * and where coordinates are doubles of like size they are not refused.
  */
 #include "support/test.h"
@@ -71,8 +71,11 @@ static void check_pose(test_random *random, pir_workspace *workspace, const pir_
     }
 }
 
-/* `count`: with Q as it stands, and with both posed. */
-static void run_scene(uint64_t number, pir_workspace *workspace, struct count count[2]) {
+/* How Q is posed. */
+enum { STANDS, MOVED, TURNED, WAYS };
+
+/* `count`: for each way that Q is posed. */
+static void run_scene(uint64_t number, pir_workspace *workspace, struct count count[WAYS]) {
     test_random random = test_random_case("short slacks", number);
     exact_scene scene;
     exact_scene_make(&random, number, &scene);
@@ -80,21 +83,21 @@ static void run_scene(uint64_t number, pir_workspace *workspace, struct count co
     pir_pair *pair;
     assert_int_equal(pir_pair_create(p, q, NULL, &pair), PIR_OK);
     pir_pair_input input = pir_pair_input_default();
-    for (int pose = 0; pose < 2 * POSES; pose++) {
-        const bool both = pose >= POSES;
+    for (int pose = 0; pose < WAYS * POSES; pose++) {
+        const int way = pose / POSES;
         pir_vec3 d = test_random_direction(&random);
         double far = scene.scale * test_random_between(&random, 0, 3);
         // where P touches a vertex of Q with one of its own, and anywhere
         pir_vec3 at = q->vertex[test_random_below(&random, q->vertex_count)];
         input.pose_p.rotation = exact_rotation(&random, &scene);
         input.pose_p.translation = pose % 2 ? at : (pir_vec3){far * d.x, far * d.y, far * d.z};
-        if (both) {
+        if (way != STANDS) {
             pir_vec3 e = test_random_direction(&random);
-            input.pose_q.rotation = exact_rotation(&random, &scene);
+            input.pose_q.rotation = way == TURNED ? exact_rotation(&random, &scene) : (pir_quat){0, 0, 0, 1};
             input.pose_q.translation = pose % 3 ? (pir_vec3){far * e.x, far * e.y, far * e.z} : at;
         }
         if (p->facet_count > 0 && q->facet_count > 0 && pir_pair_begin(pair, workspace, &input) == PIR_OK)
-            check_pose(&random, workspace, &workspace->placement, number, &count[both]);
+            check_pose(&random, workspace, &workspace->placement, number, &count[way]);
     }
     pir_pair_destroy(pair);
     pir_polytope_release(p);
@@ -104,15 +107,15 @@ static void run_scene(uint64_t number, pir_workspace *workspace, struct count co
 static void slacks_have_the_same_bits(void **state) {
     (void)state;
     pir_workspace *workspace;
-    struct count count[2] = {{0, 0}, {0, 0}};
+    struct count count[WAYS] = {{0, 0}};
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
     for (uint64_t i = 0; i < SCENES; i++)
         run_scene(i, workspace, count);
     pir_workspace_destroy(workspace);
-    for (int both = 0; both < 2; both++) {
-        print_message("%u slacks, %u of them in integers of fixed length\n", count[both].seen, count[both].brief);
+    for (int way = 0; way < WAYS; way++) {
+        print_message("%u slacks, %u of them in integers of fixed length\n", count[way].seen, count[way].brief);
 #if GMP_NUMB_BITS == 64
-        assert_true(count[both].seen > 1000 && 2 * count[both].brief > count[both].seen);
+        assert_true(count[way].seen > 1000 && 2 * count[way].brief > count[way].seen);
 #endif
     }
 }

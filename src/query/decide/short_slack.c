@@ -158,11 +158,11 @@ static inline void turn_shifted(const turning *by, two3 *v, int shift, pir_int25
     }
 }
 
-/* W, in units of 2^*ret_exponent / N. */
-static bool get_corner(const pir_frame *frame, const turning *by, pir_vec3 translation, const pir_facet *facet,
+/* W, in units of 2^*ret_exponent / N. `at`: the translations of both. */
+static bool get_corner(const pir_frame *frame, const turning *by, const pir_vec3 at[2], const pir_facet *facet,
                        pir_int256 corner[3], int *ret_exponent) {
-    const double t[3] = {translation.x, translation.y, translation.z};
-    int of_p, of_q, low = low_bit(t, 3);
+    const double t[6] = {at[0].x, at[0].y, at[0].z, at[1].x, at[1].y, at[1].z};
+    int of_p, of_q, low = low_bit(t, 6);
     if (!get_exponent(&frame->p.polytope->scale, &of_p) || !get_exponent(&frame->q.polytope->scale, &of_q))
         return false;
     low = of_p < low ? of_p : low;
@@ -174,10 +174,10 @@ static bool get_corner(const pir_frame *frame, const turning *by, pir_vec3 trans
         return false;
     shift_vector(&d, of_q - low);
     for (int k = 0; k < 3; k++) {
-        pir_two_limbs moved;
-        if (!get_double(t[k], low, VECTOR_BITS - 1, &moved))
+        pir_two_limbs moved, back;
+        if (!get_double(t[k], low, VECTOR_BITS - 2, &moved) || !get_double(t[3 + k], low, VECTOR_BITS - 2, &back))
             return false;
-        d.c[k] -= moved;
+        d.c[k] -= moved - back;
     }
     turn_shifted(by, &p, of_p - low, corner);
     for (int k = 0; k < 3; k++)
@@ -279,16 +279,22 @@ static pir_real real_of_wide(const pir_int512 *a) {
     return real;
 }
 
-/* --- Q as it stands --- */
+/* --- Q not turned --- */
 
-static bool slack_at_rest(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
+/* Whether Q's quaternion turns nothing, and its N is a power of two: then W is that of placed.h but for such powers. */
+static inline bool is_unturned(pir_quat q) {
+    int exponent;
+    return pir_quat_is_identity(q) && fabs(frexp(q.w, &exponent)) == 0.5;
+}
+
+static bool slack_at_rest(const pir_exact *exact, const pir_vec3 at[2], const pir_facet *facet, int *ret_sign,
                           double *ret_slack) {
     const pir_frame *frame = exact->frame;
     turning by;
     int exponent;
     pir_int256 corner[3] = {{{0}}, {{0}}, {{0}}};
     pir_int512 dot, square;
-    if (!get_turning(exact->rotation->given, &by) || !get_corner(frame, &by, translation, facet, corner, &exponent) ||
+    if (!get_turning(exact->rotation->given, &by) || !get_corner(frame, &by, at, facet, corner, &exponent) ||
         !get_products(frame, &by, facet->piece, corner, &dot, &square))
         return false;
     *ret_sign = pir_int512_sign(&dot);
@@ -442,9 +448,13 @@ static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *
 
 bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
                      double *ret_slack) {
-    if (exact->world && exact->rotation->relative)
-        return slack_in_world(exact, facet, ret_sign, ret_slack);
-    return !exact->world && !exact->rotation->relative && slack_at_rest(exact, translation, facet, ret_sign, ret_slack);
+    const pir_world *world = exact->world;
+    if (exact->rotation->relative)
+        return world && slack_in_world(exact, facet, ret_sign, ret_slack);
+    if (world && !is_unturned(world->rotation_q->given))
+        return false;
+    const pir_vec3 at[2] = {translation, world ? world->translation_q : (pir_vec3){0, 0, 0}};
+    return slack_at_rest(exact, at, facet, ret_sign, ret_slack);
 }
 
 #else

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The exact slack of a facet in integers of fixed length, for bodies and poses as scenes have them: P turned and moved
- * by doubles of like size, Q as it stands, coordinates that are doubles.
+ * The exact slack of a facet in integers of fixed length, for bodies and poses as scenes have them: both turned and
+ * moved by doubles of like size, coordinates that are doubles.
  *
  * The integers are those of placed.h but for powers of two, and numbers come from them by the same steps, so they have
  * the same bits.
