@@ -171,6 +171,7 @@ static const struct option impact_options[] = {
     {"--pivot", "x,y,z", "... through this point (0,0,0), ..."},
     {"--angle", "DEGREES", "... by this angle, from -360 to 360 (360)"},
     {"--way", "x,y,z", "move P by this; beside --axis, a screw of less than 180 degrees"},
+    {"--proportional", NULL, "the way proportional to the angle, up to 36000 degrees: bounds instead of a root"},
     {"--quat", "x,y,z,w", "turn P by this quaternion first, exactly as given, of any length but 0, ..."},
     {"--translate", "x,y,z", "... then move it by this (0,0,0): where it starts"},
     {"--solid", NULL, "the models as the solids that they are, in convex pieces"},
@@ -385,17 +386,22 @@ const struct command command_table[] = {
         .positional = {"P", "Q"},
         .required = 2,
         .summary = "when P, turning about an axis, going straight on, or both, first touches Q, exactly",
-        .details = "The outcome is hit, miss, receding (P touches Q at the start and leaves it), start inside or at "
-                   "rest, and is exact: a graze is a hit. The angle and the fraction of the motion are rounded down. "
-                   "The contact is a root of a quadratic with integer coefficients in kappa, which is the length of "
-                   "the axis times the cotangent of half the angle, or 1 through the fraction of a way. With both an "
-                   "axis and a way P goes the way as the tangent of half the angle grows; the contact is a root of a "
-                   "cubic.",
+        .details =
+            "The outcome is hit, miss, receding (P touches Q at the start and leaves it), start inside or at "
+            "rest, and is exact: a graze is a hit. The angle and the fraction of the motion are rounded down. "
+            "The contact is a root of a quadratic with integer coefficients in kappa, which is the length of "
+            "the axis times the cotangent of half the angle, or 1 through the fraction of a way. With both an "
+            "axis and a way P goes the way as the tangent of half the angle grows; the contact is a root of a "
+            "cubic. With --proportional P screws as a bolt does, through up to a hundred turns. The outcome then "
+            "is free, meets or undecided, and never wrong: there is no contact before the first of the two "
+            "angles; where they meet there is one at the second, or before it.",
         .options = impact_options,
         .examples = {{"impact shape:cube shape:cube --axis 0,0,1 --pivot 3,3,0 --translate 0,5,0", "a door"},
                      {"impact shape:cube shape:gs4 --translate 3,0,0 --way -4,0,0 --json", "a way, with the faces"},
-                     {"impact shape:cube shape:cube --translate 0,0,3 --axis 0,0,1 --angle 90 --way 0,0,-3",
-                      "a screw"}},
+                     {"impact shape:cube shape:cube --translate 0,0,3 --axis 0,0,1 --angle 90 --way 0,0,-3", "a screw"},
+                     {"impact shape:cube shape:cube --translate 0,0,9 --axis 0,0,1 --angle 1440 --way 0,0,-9 "
+                      "--proportional",
+                      "a bolt"}},
     },
     {
         .name = "query",

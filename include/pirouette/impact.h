@@ -11,7 +11,7 @@
  * A screw turns and goes at once. What is proportional to the angle itself is no root of any polynomial in κ. So the
  * fraction of the way here is κ₁/κ, of the κ₁ at the end: tan(θ/2)/tan(θ₁/2). All conditions then are
  * cubics. From θ/θ₁ this differs by at most 0.001 in a screw of 10 degrees, 0.009 in one of 30, 0.037 in one of 60,
- * 0.09 in one of 90. Short screws, one after another, make a long one whose way is that close to proportional.
+ * 0.09 in one of 90. For a way that is proportional to the angle, pir_pair_sweep_screw has proven bounds.
  *
  * The search goes from one separating plane to the next. Each has the κ at which it ceases to separate, a root. There
  * another plane separates, of which that is proven at the root itself, or the bodies touch. So no contact is passed,
@@ -36,7 +36,7 @@ typedef struct pir_exact_motion {
     double degrees;       /**< from −360 to 360, counter-clockwise seen from where the axis points to; 0 for a way */
     /**
      * In the world; zero for a turn. Of a screw it is gone by tan(θ/2)/tan(θ₁/2), in any direction, along the axis
-     * or not; the angle then is below 180 degrees and at least 2^-20.
+     * or not; the angle then is below 180 degrees and at least 2^-20. In sweeps (sweep.h) it is gone by θ/θ₁.
      */
     pir_vec3 way;
 } pir_exact_motion;

@@ -159,6 +159,23 @@ PIR_API pir_status pir_solid_query_impact(pir_solid_query *query, pir_workspace 
 PIR_API pir_status pir_solid_query_sweep(pir_solid_query *query, pir_workspace *workspace, const pir_pair_input *first,
                                          const pir_pair_input *second, uint32_t budget, pir_sweep_result *ret_sweep);
 
+/**
+ * Whether two bodies are free all along a turn, a way or a screw of P, as pir_pair_sweep_screw: of all pairs of pieces
+ * that may come to each other. The result is as that of pir_solid_query_sweep.
+ *
+ * workspace  scratch.
+ * input      the poses at time 0, in the world; the radii count, cutoff and margin do not.
+ * motion     P's, its way proportional to the angle; Q rests.
+ * budget     the most distances that are asked for of a pair of pieces; 0 for PIR_SWEEP_BUDGET.
+ *
+ * Cost: that of pir_pair_sweep_screw for each pair of pieces that may meet, as of pir_solid_query_sweep.
+ *
+ * Errors: those of pir_pair_sweep_screw.
+ */
+PIR_API pir_status pir_solid_query_sweep_screw(pir_solid_query *query, pir_workspace *workspace,
+                                               const pir_pair_input *input, const pir_exact_motion *motion,
+                                               uint32_t budget, pir_sweep_result *ret_sweep);
+
 /** A facet of the sum of two pieces, which P may not move into: a facet of one and a vertex of the other, or an edge
  * of each. */
 typedef struct pir_solid_facet {

@@ -69,7 +69,7 @@ def first_contact_of(found: Any) -> FirstContact:
 def sweep_by(call: Any, first: Any, second: Any, budget: int) -> Sweep:
     """What a call of the library tells of a motion; `call` has all arguments but the last four."""
     found, most = ffi.new("pir_sweep_result *"), whole("budget", budget, 0, 2**32 - 1)
-    check(call(first, second, most, found), "poses or budget")
+    check(call(first, second, most, found), "poses, motion or budget")
     return Sweep(_SWEEPS[found.outcome], getattr(found, "from"), found.to)
 
 

@@ -321,6 +321,16 @@ class Pair(Handle):
             pair, workspace = self._single()
             return sweep_by(functools.partial(lib.pir_pair_sweep, pair, workspace), first, second, budget)
 
+    def sweep_screw(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                    axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0, pivot: npt.ArrayLike = (0, 0, 0),
+                    way: npt.ArrayLike = (0, 0, 0), budget: int = 0) -> Sweep:
+        """Whether a turn, a way or a screw of P is free, proven: through up to 36,000 degrees, the way proportional to
+        the angle. `start` and `end` are fractions of the angle."""
+        asked, motion = input_at("pose_p", pose_p, "pose_q", pose_q), exact_motion(axis, degrees, pivot, way)
+        with self._held():
+            pair, workspace = self._single()
+            return sweep_by(functools.partial(lib.pir_pair_sweep_screw, pair, workspace), asked, motion, budget)
+
     def active_set(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
                    slack: float = 0.0) -> ActiveSet:
         """Every way out of an overlap that is at most `slack` longer than the depth: what a solver may choose among.

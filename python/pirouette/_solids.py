@@ -332,6 +332,15 @@ class SolidPair(Handle):
         with self._single() as query:
             return sweep_by(functools.partial(lib.pir_solid_query_sweep, query, self._workspace), first, second, budget)
 
+    def sweep_screw(self, pose_p: npt.ArrayLike, pose_q: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *,
+                    axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0, pivot: npt.ArrayLike = (0, 0, 0),
+                    way: npt.ArrayLike = (0, 0, 0), budget: int = 0) -> Sweep:
+        """As of `Pair.sweep_screw`."""
+        asked, motion = input_at("pose_p", pose_p, "pose_q", pose_q), exact_motion(axis, degrees, pivot, way)
+        with self._single() as query:
+            return sweep_by(functools.partial(lib.pir_solid_query_sweep_screw, query, self._workspace), asked, motion,
+                            budget)
+
     def _make_contacts(self) -> None:
         if self._contacts is None:
             made = ffi.new("pir_solid_contacts **")

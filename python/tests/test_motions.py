@@ -70,6 +70,17 @@ def test_sweeps_are_free_or_meet():
     assert solids.sweep([0, 0, 0, 1, 1.25, 1.25, 0], [0, 0, 0, 1, 0, 0, 0]).outcome == "meets"
 
 
+def test_screws_go_as_bolts_do():
+    block = pirouette.Solid.prism([[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]], 1)
+    for both in pirouette.Pair(CORNERS, CORNERS), pirouette.SolidPair(block, block):
+        down = dict(axis=[0, 0, 2], degrees=1800, pivot=[0.25, 0.25, 0])
+        meets = both.sweep_screw([0, 0, 0, 1, 0, 0, 4], way=[0, 0, -9], **down)
+        assert meets.outcome == "meets" and meets.start <= 1 / 3 <= meets.end < 1 / 3 + 1e-9
+        assert both.sweep_screw([0, 0, 0, 1, 0, 0, 4], way=[0, 0, -2], **down) == ("free", 1, 1)
+        with pytest.raises(pirouette.InputError):
+            both.sweep_screw([0, 0, 0, 1, 0, 0, 4], axis=[0, 0, 1], degrees=1e6)
+
+
 def test_a_map_has_the_state_at_every_angle():
     p, q, axis = sphere(12), pirouette.Polytope.shape("cube"), np.array([0, 0, 1.0])
     made, pair = pirouette.CriticalMap(p, q, axis), pirouette.Pair(p, q)

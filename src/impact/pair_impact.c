@@ -12,6 +12,7 @@
 
 #include "impact/planes.h"
 #include "pair/pair.h"
+#include "query/proof/parting.h"
 
 #define DEGREE 57.29577951308232
 
@@ -210,17 +211,11 @@ static pir_status run(impact_job *job, pir_exact_impact *impact) {
 /* --- the calls --- */
 
 pir_status pir_exact_motion_check(const pir_exact_motion *motion) {
-    if (!pir_vec_is_finite(motion->pivot) || !pir_vec_is_finite(motion->axis) || !pir_vec_is_finite(motion->way) ||
-        !isfinite(motion->degrees))
-        return PIR_ERR_NOT_FINITE;
-    const bool turns = motion->degrees != 0, goes = pir_vec_size(motion->way) > 0;
-    const double most = fmax(fmax(fabs(motion->axis.x), fabs(motion->axis.y)), fabs(motion->axis.z));
-    const bool too_far = fabs(motion->degrees) > 360 || (goes && fabs(motion->degrees) >= 180);
-    if (too_far || (turns && most == 0))
-        return PIR_ERR_ARGUMENT;
-    if (turns && goes && fabs(motion->degrees) < 0x1p-20)
+    const bool goes = pir_vec_size(motion->way) > 0;
+    const pir_status status = pir_screw_check(motion, goes ? nextafter(180, 0) : 360);
+    if (status == PIR_OK && pir_exact_motion_screws(motion) && fabs(motion->degrees) < 0x1p-20)
         return PIR_ERR_LIMIT;
-    return turns && !(most >= 0x1p-400 && most <= 0x1p400) ? PIR_ERR_LIMIT : PIR_OK;
+    return status;
 }
 
 bool pir_exact_motion_screws(const pir_exact_motion *motion) {

@@ -53,8 +53,12 @@ pir_status pir_pair_fly(pir_pair *pair, pir_workspace *workspace, pir_pair_input
                         double until, pir_flight_end *ret_end) {
     const pir_motion *motion = flight->motion;
     const double error = DISTANCE_ERROR * flight->size + TURN_ERROR * pir_vec_length(motion->turn) * flight->reach;
-    struct pair_advance on = {{.body = {flight->p->vertex, flight->p->vertex_count, input->radius_p, flight->reach,
-                                        motion->way, motion->turn},
+    struct pair_advance on = {{.body = {.point = flight->p->vertex,
+                                        .count = flight->p->vertex_count,
+                                        .radius = input->radius_p,
+                                        .reach = flight->reach,
+                                        .way = motion->way,
+                                        .turn = motion->turn},
                                .motion = motion,
                                .tolerance = flight->tolerance,
                                .least = 4 * error,

@@ -2,9 +2,9 @@
 /*
  * Sweeps of pairs: from plane to plane while the bodies are apart, then forward to an overlap.
  *
- * Seen from Q's origin, which goes straight, Q turns about it, and P turns about its own origin, which goes straight
- * too. A plane between the bodies that stands still there has P above and Q below until a point of either comes down
- * to it (query/proof/parting.h). Each has its share of the gap, by how fast its points can be.
+ * Seen from Q's origin, which goes straight, Q turns about it. P turns about its own origin, or the pivot of a screw,
+ * and that goes straight too. A plane between the bodies that stands still there has P above and Q below until a point
+ * of either comes down to it (query/proof/parting.h). Each has its share of the gap, by how fast its points can be.
  *
  * Invariants: up to `time` the bodies share no point, but for stretches between `from` and `to`, of which nothing is
  * proven; `is_open` says whether there is one. All of it is of the exact motion.
@@ -15,6 +15,10 @@
  * course by 2^-44, times by u of the ways. This is below 2^-42 in all, for either body. ERROR is four times that, and
  * each body stays farther from its plane than 2·ERROR. A depth is off by 1e-12 (pair.h) and the poses by 2^-41, so an
  * overlap deeper than DEEP, 2^-38, is one of the exact motion.
+ *
+ * A screw's vector is off by 8u of its angle θ instead. Its pivot, as the body sees it, is off by 40u, and brought to
+ * the world by as much. The pose at a time is off by 250u for each half turn, and so is the course for each half turn
+ * by 2^-48 of its way. All together is below 1100u for each half turn that is begun; `size` is multiplied by those.
  */
 #include <pirouette/sweep.h>
 
@@ -31,11 +35,14 @@
 /* Components of a relative rotation from here on have the sign of the exact ones: see rotation.c. */
 #define LEAST_COMPONENT 0x1p-40
 
+#define RADIANS_A_DEGREE 0x1.1df46a2529d39p-6
+
 /* A body on its way. */
 typedef struct sweep_mover {
     pir_parted parted; /* `way` of P's is that relative to Q's, of Q's 0 */
     pir_vec3 way;
     pir_pose pose[2]; /* at times 0 and 1 */
+    bool is_exact;    /* whether the second pose is that of the motion, and not rounded */
     double fastest;   /* no point moves farther, as `parted` goes */
 } sweep_mover;
 
@@ -95,10 +102,10 @@ static pir_vec3 turn_of(pir_quat q) {
     return pir_vec_scale(v, 32 * series);
 }
 
-static double reach_of(const pir_polytope *p) {
+static double reach_of(const pir_polytope *p, pir_vec3 centre) {
     double most = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, pir_vec_length(p->vertex[v]));
+        most = fmax(most, pir_vec_length(pir_vec_sub(p->vertex[v], centre)));
     return most * (1 + 0x1p-48) + 0x1p-1074;
 }
 
@@ -111,23 +118,54 @@ static pir_status set_mover(sweep_mover *mover, const pir_polytope *body, const 
         return status;
     mover->pose[0] = pose[0];
     mover->pose[1] = pose[1];
+    mover->is_exact = true;
     mover->way = pir_vec_sub(pose[1].translation, pose[0].translation);
     pir_vec3 turn = {0, 0, 0};
     if (!pir_quat_is_identity(relative.unit))
         turn = pir_pose_rotate(pose[0], turn_of(shorter_way(&relative)));
-    mover->parted = (pir_parted){
-        .point = body->vertex, .count = body->vertex_count, .radius = radius, .reach = reach_of(body), .turn = turn};
+    const pir_vec3 centre = {0, 0, 0};
+    mover->parted = (pir_parted){.point = body->vertex,
+                                 .count = body->vertex_count,
+                                 .radius = radius,
+                                 .reach = reach_of(body, centre),
+                                 .turn = turn};
     return PIR_OK;
 }
 
 static pir_pose pose_at(const sweep_mover *mover, double time) {
-    if (time == 0 || time == 1)
+    if (time == 0 || (time == 1 && mover->is_exact))
         return mover->pose[time == 1];
-    return pir_pose_integrate(mover->pose[0], mover->way, mover->parted.turn, time);
+    const pir_vec3 centre = mover->parted.centre;
+    const pir_vec3 from = pir_vec_add(mover->pose[0].translation, pir_pose_rotate(mover->pose[0], centre));
+    pir_pose pose = pir_pose_integrate((pir_pose){mover->pose[0].rotation, from}, mover->way, mover->parted.turn, time);
+    pose.translation = pir_vec_sub(pose.translation, pir_pose_rotate(pose, centre));
+    return pose;
 }
 
 static bool rests(const sweep_mover *mover) {
-    return pir_pose_is_same(&mover->pose[0], &mover->pose[1]);
+    return mover->is_exact && pir_pose_is_same(&mover->pose[0], &mover->pose[1]);
+}
+
+/* --- screws --- */
+
+/* The turn along its axis, as long as the angle. */
+static pir_vec3 turn_of_screw(const pir_exact_motion *motion) {
+    const double angle = motion->degrees * RADIANS_A_DEGREE;
+    return angle == 0 ? (pir_vec3){0, 0, 0} : pir_vec_scale(motion->axis, angle / pir_vec_length(motion->axis));
+}
+
+/* Makes a mover that rests at its first pose one that goes along a screw. */
+static void screw_on(sweep_mover *mover, const pir_polytope *body, const pir_exact_motion *motion) {
+    pir_parted *parted = &mover->parted;
+    const pir_pose first = mover->pose[0];
+    mover->way = motion->way;
+    parted->turn = turn_of_screw(motion);
+    if (motion->degrees != 0) {
+        parted->centre = pir_pose_rotate_inverse(first, pir_vec_sub(motion->pivot, first.translation));
+        parted->reach = reach_of(body, parted->centre);
+    }
+    mover->is_exact = motion->degrees == 0 && pir_vec_size(motion->way) == 0;
+    mover->pose[1] = pose_at(mover, 1);
 }
 
 /* --- what is known at a time --- */
@@ -163,7 +201,8 @@ static double gap_of(const sweep_job *job) {
 
 /* Whether the bodies share a point at the time at hand, proven. */
 static pir_status prove_meeting(sweep_job *job, double time, bool *ret_meets) {
-    *ret_meets = job->answer.state != PIR_OUTSIDE && !job->rounded && (time == 0 || time == 1);
+    const bool is_exact = time == 0 || (time == 1 && job->p.is_exact);
+    *ret_meets = job->answer.state != PIR_OUTSIDE && !job->rounded && is_exact;
     if (*ret_meets || job->answer.state != PIR_INSIDE)
         return PIR_OK;
     pir_query_result depth;
@@ -271,8 +310,8 @@ static pir_status run(sweep_job *job, pir_sweep_result *sweep) {
     return status;
 }
 
-/* Sets P's way relative to Q's, how fast both are, and the size. */
-static void set_size(sweep_job *job) {
+/* Sets P's way relative to Q's, how fast both are, and the size. PIR_ERR_LIMIT where that is not finite. */
+static pir_status set_size(sweep_job *job) {
     sweep_mover *const mover[2] = {&job->p, &job->q};
     job->p.parted.way = pir_vec_sub(job->p.way, job->q.way);
     for (int k = 0; k < 2; k++) {
@@ -281,24 +320,47 @@ static void set_size(sweep_job *job) {
         job->size += m->parted.reach + m->parted.radius + pir_vec_length(m->pose[0].translation) +
                      pir_vec_length(m->pose[1].translation) + pir_vec_length(m->way);
     }
+    return isfinite(job->size) ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+static pir_status init(sweep_job *job, const pir_pair_input *first, const pir_pair_input *second, uint32_t budget) {
+    job->budget = budget > 0 ? budget : PIR_SWEEP_BUDGET;
+    job->at = *first;
+    job->at.cutoff = HUGE_VAL;
+    job->at.margin = 0;
+    job->rounded = first->radius_p > 0 || first->radius_q > 0;
+    pir_status status = pir_pair_check(&job->at);
+    if (status == PIR_OK)
+        status = set_mover(&job->p, job->pair->p, (const pir_pose[]){first->pose_p, second->pose_p}, first->radius_p);
+    if (status == PIR_OK)
+        status = set_mover(&job->q, job->pair->q, (const pir_pose[]){first->pose_q, second->pose_q}, first->radius_q);
+    return status;
 }
 
 pir_status pir_pair_sweep(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *first,
                           const pir_pair_input *second, uint32_t budget, pir_sweep_result *ret_sweep) {
     if (!pair || !workspace || !first || !second || !ret_sweep)
         return PIR_ERR_ARGUMENT;
-    sweep_job job = {.pair = pair, .workspace = workspace, .budget = budget > 0 ? budget : PIR_SWEEP_BUDGET};
-    job.at = *first;
-    job.at.cutoff = HUGE_VAL;
-    job.at.margin = 0;
-    pir_status status = pir_pair_check(&job.at);
+    sweep_job job = {.pair = pair, .workspace = workspace};
+    pir_status status = init(&job, first, second, budget);
     if (status == PIR_OK)
-        status = set_mover(&job.p, pair->p, (const pir_pose[]){first->pose_p, second->pose_p}, first->radius_p);
+        status = set_size(&job);
+    return status == PIR_OK ? run(&job, ret_sweep) : status;
+}
+
+pir_status pir_pair_sweep_screw(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
+                                const pir_exact_motion *motion, uint32_t budget, pir_sweep_result *ret_sweep) {
+    if (!pair || !workspace || !input || !motion || !ret_sweep)
+        return PIR_ERR_ARGUMENT;
+    sweep_job job = {.pair = pair, .workspace = workspace};
+    pir_status status = pir_screw_check(motion, PIR_SWEEP_DEGREES);
     if (status == PIR_OK)
-        status = set_mover(&job.q, pair->q, (const pir_pose[]){first->pose_q, second->pose_q}, first->radius_q);
+        status = init(&job, input, input, budget);
     if (status != PIR_OK)
         return status;
-    job.rounded = first->radius_p > 0 || first->radius_q > 0;
-    set_size(&job);
-    return isfinite(job.size) ? run(&job, ret_sweep) : PIR_ERR_LIMIT;
+    screw_on(&job.p, pair->p, motion);
+    job.size = motion->degrees != 0 ? pir_vec_length(motion->pivot) : 0;
+    status = set_size(&job);
+    job.size *= fmax(1, ceil(fabs(motion->degrees) / 180));
+    return status == PIR_OK ? run(&job, ret_sweep) : status;
 }

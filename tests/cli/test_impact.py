@@ -103,6 +103,22 @@ class Impact(CommandTest):
         turn = self.data("impact", *screw[:-1], "--way=0,0,0")
         self.assertEqual(turn["outcome"], "miss")
 
+    def test_a_bolt(self):
+        bolt = ("impact", "shape:cube", "shape:cube", "--translate=0,0,4", "--axis=0,0,1", "--angle=1440",
+                "--proportional")
+        for solid in [], ["--solid"]:
+            told = self.data(*bolt, "--way=0,0,-9", *solid)
+            self.assertEqual(told["outcome"], "meets")
+            # the cubes touch at a height of 1, after a third of the way
+            self.assertTrue(480 - 1e-6 < told["degrees"][0] <= 480 <= told["degrees"][1] < 480 + 1e-6)
+            self.assertTrue(told["fraction"][0] <= 1 / 3 <= told["fraction"][1])
+            free = self.data(*bolt, "--way=0,0,-2.5", *solid)
+            self.assertEqual((free["outcome"], free["degrees"], free["fraction"]), ("free", [1440, 1440], [1, 1]))
+        self.assertRegex(self.good(*bolt, "--way=0,0,-9"),
+                         r"^shape:cube screwing against shape:cube: meets\n  degrees +479\.9.* to 480\.0.*\n")
+        slides = self.data("impact", "shape:cube", "shape:cube", "--translate=-3,1,0", "--way=6,0,0", "--proportional")
+        self.assertEqual((slides["outcome"], "degrees" in slides), ("undecided", False))
+
     def test_solids_are_not_their_hulls(self):
         run = "impact", "shape:box?x=0.5&y=0.5&z=0.5", self.file("l.off", prism()), "--translate", "2.5,2.5,0.5"
         told = self.data(*run, "--way=-3,0,0", "--solid")
@@ -128,6 +144,7 @@ class Impact(CommandTest):
         self.bad(*pair, "--axis", "1e300,0,0", says="impact: ")
         self.bad(*pair, "--axis", "0,0,1", "--angle", "361", says="--angle")
         self.bad(*pair, "--axis", "0,0,1", "--angle", "0", says="--angle")
+        self.bad(*pair, "--axis", "0,0,1", "--angle", "36001", "--proportional", says="from -36000 to 36000")
         self.bad(*pair, "--way", "1,0,0", "--pivot", "1,0,0", says="--pivot is for turns")
         self.bad(*pair, "--way", "1,0,0", "--quat", "0,0,0,0", says="zero quaternion")
         self.bad(*pair, "--way", "1,0,0", "--solid", "--merge", "1", says="--merge")

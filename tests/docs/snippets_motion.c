@@ -43,11 +43,16 @@ int main(void) {
 
     /* snippet 5 */
 
+    if (sweep.outcome != PIR_SWEEP_FREE)
+        return 1;
+
+    /* snippet 6 */
+
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     if (hit.impact.outcome != PIR_CAST_HIT || !(hit.degrees > 10 && hit.degrees < 90))
         return 1;
-    if (sweep.outcome != PIR_SWEEP_FREE)
+    if (sweep.outcome != PIR_SWEEP_MEETS)
         return 1;
     pir_polytope_release(q);
     pir_polytope_release(p);

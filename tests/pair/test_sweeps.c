@@ -2,12 +2,13 @@
 /*
  * Sweeps held against states at many times: poses on the way in long double, by sines and cosines, and all axes that
  * can separate two convex bodies tried. Where a sweep says that bodies share no point, all axes' greatest gap must be
- * above 0; where it says that they do, below.
+ * above 0; where it says that they do, below. Turns and ways that are screws are held against exact first contacts too.
  */
 #include "support/test.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <pirouette/pair.h>
 #include <pirouette/pose.h>
@@ -31,7 +32,7 @@ typedef struct quaternion {
     number w;
 } quaternion;
 
-static struct { uint32_t free, meets, ends, undecided, tied, budget, queries, most, open; } seen;
+static struct { uint32_t free, meets, ends, undecided, tied, budget, queries, most, open, exact; } seen;
 static double widest;
 
 /* --- the oracle --- */
@@ -78,12 +79,13 @@ static vector turned(quaternion q, vector x) {
 typedef struct mover {
     const pir_polytope *body;
     pir_pose pose[2];
+    const pir_exact_motion *screw; /* in place of the second pose, or NULL */
     uint32_t vertices, edges, facets;
     vector vertex[MOST], edge[2 * MOST], normal[MOST]; /* at the time at hand */
 } mover;
 
-/* A body at a time: the relative turn, of the shorter way, by a part of its angle after the first. */
-static void place(mover *m, number time) {
+/* Rotation and translation at a time: the relative turn, of the shorter way, by a part of its angle after the first. */
+static quaternion between(const mover *m, number time, vector *ret_translation) {
     const quaternion a = unit_of(m->pose[0].rotation), b = unit_of(m->pose[1].rotation);
     quaternion part = times((quaternion){scaled(a.v, -1), a.w}, b);
     // aligned quaternions are of small integers, and in others nothing is that near to a half turn
@@ -99,8 +101,32 @@ static void place(mover *m, number time) {
     part = (quaternion){scaled(part.v, sine > 0 ? sinl(half) / sine : 0), cosl(half)};
     const quaternion q = times(a, part);
     const pir_vec3 s = m->pose[0].translation, e = m->pose[1].translation;
-    const vector t = {s.x + time * ((number)e.x - s.x), s.y + time * ((number)e.y - s.y),
-                      s.z + time * ((number)e.z - s.z)};
+    *ret_translation =
+        (vector){s.x + time * ((number)e.x - s.x), s.y + time * ((number)e.y - s.y), s.z + time * ((number)e.z - s.z)};
+    return q;
+}
+
+/* Rotation and translation at a time of a screw. */
+static quaternion screwed(const mover *m, number time, vector *ret_translation) {
+    const pir_exact_motion *s = m->screw;
+    const vector axis = {s->axis.x, s->axis.y, s->axis.z}, pivot = {s->pivot.x, s->pivot.y, s->pivot.z};
+    const number half = time * s->degrees * (3.14159265358979323846264338L / 360);
+    const quaternion q = unit_of(m->pose[0].rotation);
+    const pir_vec3 from = m->pose[0].translation;
+    vector t = {from.x, from.y, from.z};
+    quaternion part = {{0, 0, 0}, 1};
+    if (s->degrees != 0) {
+        part = (quaternion){scaled(axis, sinl(half) / length(axis)), cosl(half)};
+        t = plus(pivot, turned(part, minus(t, pivot)));
+    }
+    *ret_translation = plus(t, scaled((vector){s->way.x, s->way.y, s->way.z}, time));
+    return times(part, q);
+}
+
+/* A body at a time. */
+static void place(mover *m, number time) {
+    vector t;
+    const quaternion q = m->screw ? screwed(m, time, &t) : between(m, time, &t);
     m->vertices = pir_polytope_vertex_count(m->body);
     m->edges = pir_polytope_edge_count(m->body);
     m->facets = pir_polytope_facet_count(m->body);
@@ -184,6 +210,18 @@ static pir_vec3 random_place(test_random *random, bool aligned, double size) {
     return (pir_vec3){s * v.x, s * v.y, s * v.z};
 }
 
+/* Puts P above Q, which is at the origin, at a distance down to nothing. */
+static void put_above(test_random *random, mover *p, mover *q) {
+    const double above = test_random_below(random, 4) == 0 ? 0 : ldexp(1, -test_random_between(random, 0, 45));
+    q->pose[1] = q->pose[0] = (pir_pose){{0, 0, 0, 1}, {0, 0, 0}};
+    double top = -HUGE_VAL, bottom = HUGE_VAL;
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(q->body); i++)
+        top = fmax(top, pir_polytope_vertex(q->body, i).z);
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(p->body); i++)
+        bottom = fmin(bottom, pir_pose_rotate(p->pose[0], pir_polytope_vertex(p->body, i)).z);
+    p->pose[0].translation.z = p->pose[1].translation.z = top - bottom + above;
+}
+
 /* Poses, of some kinds: any; turns alone; ways alone; both alike; small motions; sliding just above; far away. */
 static void random_motion(test_random *random, mover *p, mover *q) {
     const bool aligned = test_random_below(random, 3) == 0;
@@ -210,20 +248,15 @@ static void random_motion(test_random *random, mover *p, mover *q) {
         const pir_quat r = p->pose[0].rotation;
         p->pose[1].rotation = (pir_quat){r.x + step.y / 64, r.y, r.z - step.x / 64, r.w};
     }
-    if (kind == 5) { // along a side, at a distance down to nothing
-        const double above = test_random_below(random, 4) == 0 ? 0 : ldexp(1, -test_random_between(random, 0, 45));
-        q->pose[1] = q->pose[0] = (pir_pose){{0, 0, 0, 1}, {0, 0, 0}};
-        double top = -HUGE_VAL, bottom = HUGE_VAL;
-        for (uint32_t i = 0; i < pir_polytope_vertex_count(q->body); i++)
-            top = fmax(top, pir_polytope_vertex(q->body, i).z);
-        for (uint32_t i = 0; i < pir_polytope_vertex_count(p->body); i++)
-            bottom = fmin(bottom, pir_pose_rotate(p->pose[0], pir_polytope_vertex(p->body, i)).z);
-        p->pose[0].translation.z = p->pose[1].translation.z = top - bottom + above;
-    }
+    if (kind == 5)
+        put_above(random, p, q);
 }
 
 static double size_of(const mover *p, const mover *q) {
-    double size = 0;
+    const pir_exact_motion *s = p->screw;
+    double size =
+        s ? fabs(s->pivot.x) + fabs(s->pivot.y) + fabs(s->pivot.z) + fabs(s->way.x) + fabs(s->way.y) + fabs(s->way.z)
+          : 0;
     const mover *const both[2] = {p, q};
     for (int k = 0; k < 2; k++) {
         for (int end = 0; end < 2; end++) {
@@ -237,30 +270,62 @@ static double size_of(const mover *p, const mover *q) {
         }
         size += most;
     }
-    return size;
+    return s ? size * fmax(1, ceil(fabs(s->degrees) / 180)) : size;
 }
 
 /* --- the check --- */
 
-static pir_sweep_result sweep_of(const mover *p, const mover *q, uint32_t budget) {
+static pir_pair_input input_at(const mover *p, const mover *q, int end) {
+    pir_pair_input input = pir_pair_input_default();
+    input.pose_p = p->pose[end];
+    input.pose_q = q->pose[end];
+    return input;
+}
+
+/* Turns alone and ways alone have exact first contacts, at the same fractions. */
+static void check_exact(pir_pair *pair, pir_workspace *workspace, const mover *p, const pir_pair_input *input,
+                        const pir_sweep_result *sweep, uint64_t number_of_case) {
+    const pir_exact_motion *s = p->screw;
+    const bool goes = s->way.x != 0 || s->way.y != 0 || s->way.z != 0;
+    if (fabs(s->degrees) > 360 || (goes && s->degrees != 0))
+        return;
+    pir_exact_impact exact;
+    assert_int_equal(pir_pair_impact(pair, workspace, input, s, &exact), PIR_OK);
+    const bool free = exact.impact.outcome == PIR_CAST_MISS || exact.impact.outcome == PIR_CAST_AT_REST;
+    const bool late = exact.impact.outcome == PIR_CAST_HIT && exact.impact.time > 0;
+    seen.exact++;
+    expect(sweep->outcome == PIR_SWEEP_UNDECIDED || free == (sweep->outcome == PIR_SWEEP_FREE),
+           "case %llu: outcome %d where the exact one is %d", (unsigned long long)number_of_case, sweep->outcome,
+           exact.impact.outcome);
+    expect(!late || (sweep->from < exact.impact.time + 2e-9 && exact.impact.time <= sweep->to),
+           "case %llu: %.17g to %.17g, the exact contact at %.17g", (unsigned long long)number_of_case, sweep->from,
+           sweep->to, exact.impact.time);
+}
+
+static pir_status sweep_by(pir_pair *pair, pir_workspace *workspace, const mover *p, const mover *q, uint32_t budget,
+                           pir_sweep_result *ret_sweep) {
+    const pir_pair_input first = input_at(p, q, 0), second = input_at(p, q, 1);
+    return p->screw ? pir_pair_sweep_screw(pair, workspace, &first, p->screw, budget, ret_sweep)
+                    : pir_pair_sweep(pair, workspace, &first, &second, budget, ret_sweep);
+}
+
+static pir_sweep_result sweep_of(const mover *p, const mover *q, uint32_t budget, uint64_t number_of_case) {
     pir_polytope *own = pir_polytope_retain((pir_polytope *)(uintptr_t)p->body),
                  *other = pir_polytope_retain((pir_polytope *)(uintptr_t)q->body);
     pir_pair *pair;
     pir_workspace *workspace;
     assert_int_equal(pir_pair_create(own, other, NULL, &pair), PIR_OK);
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    pir_pair_input first = pir_pair_input_default(), second = first;
-    first.pose_p = p->pose[0];
-    first.pose_q = q->pose[0];
-    second.pose_p = p->pose[1];
-    second.pose_q = q->pose[1];
     pir_sweep_result sweep, again;
-    assert_int_equal(pir_pair_sweep(pair, workspace, &first, &second, budget, &sweep), PIR_OK);
-    assert_int_equal(pir_pair_sweep(pair, workspace, &first, &second, budget, &again), PIR_OK);
+    assert_int_equal(sweep_by(pair, workspace, p, q, budget, &sweep), PIR_OK);
+    assert_int_equal(sweep_by(pair, workspace, p, q, budget, &again), PIR_OK);
     assert_true(again.outcome == sweep.outcome && again.from == sweep.from && again.to == sweep.to &&
                 again.queries == sweep.queries);
     assert_true(sweep.queries <= (budget > 2 ? budget : budget == 0 ? PIR_SWEEP_BUDGET : 2));
     assert_true(0 <= sweep.from && sweep.from <= sweep.to && sweep.to <= 1);
+    const pir_pair_input input = input_at(p, q, 0);
+    if (p->screw)
+        check_exact(pair, workspace, p, &input, &sweep, number_of_case);
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     pir_polytope_release(own);
@@ -278,7 +343,7 @@ static void expect_apart(mover *p, mover *q, number low, number high, const pir_
 }
 
 static void check_sweep(mover *p, mover *q, uint32_t budget, uint64_t number_of_case) {
-    const pir_sweep_result sweep = sweep_of(p, q, budget);
+    const pir_sweep_result sweep = sweep_of(p, q, budget, number_of_case);
     const double size = size_of(p, q);
     expect_apart(p, q, 0, sweep.from, &sweep, number_of_case);
     seen.queries += sweep.queries;
@@ -309,6 +374,11 @@ static void check_sweep(mover *p, mover *q, uint32_t budget, uint64_t number_of_
            at);
 }
 
+static uint32_t random_budget(test_random *random) {
+    static const uint32_t budgets[] = {1, 3, 8, 40};
+    return test_random_below(random, 8) > 0 ? 0 : budgets[test_random_below(random, 4)];
+}
+
 static void check_case(uint64_t number_of_case) {
     test_random random = test_random_case("sweep", number_of_case);
     mover p = {.body = NULL}, q = {.body = NULL};
@@ -316,24 +386,85 @@ static void check_case(uint64_t number_of_case) {
     p.body = own;
     q.body = other;
     random_motion(&random, &p, &q);
-    static const uint32_t budgets[] = {1, 3, 8, 40};
-    const uint32_t budget = test_random_below(&random, 8) > 0 ? 0 : budgets[test_random_below(&random, 4)];
-    check_sweep(&p, &q, budget, number_of_case);
+    check_sweep(&p, &q, random_budget(&random), number_of_case);
     pir_polytope_release(own);
     pir_polytope_release(other);
 }
 
-static void sweeps_are_never_wrong(void **state) {
-    (void)state;
+/*
+ * Screws, of some kinds: any; turns alone; ways alone; many turns; a pivot far away; along a side, at a distance down
+ * to nothing, or down on it; hardly a turn. The axis is as long as it likes.
+ */
+static pir_exact_motion random_screw(test_random *random, mover *p, mover *q) {
+    static const pir_vec3 axes[] = {{0, 0, 1}, {0, -1, 0}, {1, 1, 1}, {1, 0x1p-30, 0}};
+    const bool aligned = test_random_below(random, 3) == 0;
+    const uint32_t kind = test_random_below(random, 7);
+    const double length = ldexp(1, 10 * (test_random_between(random, -30, 30)));
+    pir_vec3 axis = aligned ? axes[test_random_below(random, 4)] : test_random_direction(random);
+    axis = (pir_vec3){length * axis.x, length * axis.y, length * axis.z};
+    pir_exact_motion s = {.pivot = random_place(random, aligned, 3),
+                          .axis = axis,
+                          .degrees = aligned ? 45 * test_random_between(random, -7, 7) : 360 * test_random_unit(random),
+                          .way = random_place(random, aligned, 4)};
+    p->pose[0] = (pir_pose){random_turn(random, aligned), random_place(random, aligned, 6)};
+    q->pose[0] = (pir_pose){random_turn(random, aligned), random_place(random, aligned, 1)};
+    if (kind == 1)
+        s.way = (pir_vec3){0, 0, 0};
+    if (kind == 2)
+        s.degrees = 0;
+    if (kind == 3)
+        s.degrees *= 10;
+    if (kind == 4)
+        s.pivot.y += 0x1p20;
+    if (kind == 5) {
+        put_above(random, p, q);
+        s.axis = (pir_vec3){0, 0, length};
+        s.way.z = test_random_below(random, 2) == 0 ? 0 : s.way.z;
+    }
+    if (kind == 6)
+        s.degrees = ldexp(s.degrees, -30);
+    p->pose[1] = p->pose[0];
+    q->pose[1] = q->pose[0];
+    return s;
+}
+
+static void check_screw(uint64_t number_of_case) {
+    test_random random = test_random_case("sweep of a screw", number_of_case);
+    mover p = {.body = NULL}, q = {.body = NULL};
+    pir_polytope *own = random_body(&random), *other = random_body(&random);
+    p.body = own;
+    q.body = other;
+    const pir_exact_motion screw = random_screw(&random, &p, &q);
+    p.screw = &screw;
+    check_sweep(&p, &q, random_budget(&random), number_of_case);
+    pir_polytope_release(own);
+    pir_polytope_release(other);
+}
+
+static void check_all(void check(uint64_t)) {
     const char *text = getenv("PIR_TEST_CASES");
     const uint64_t count = text ? strtoull(text, NULL, 10) : 1000;
+    memset(&seen, 0, sizeof seen);
+    widest = 0;
     for (uint64_t i = 0; i < count; i++)
-        check_case(i);
+        check(i);
     print_message("%u free, %u meet, %u of them known by an end alone, %u undecided, %u of them free after, %u "
-                  "that touch; %u used their budget up; %.1f distances a motion, %u at most; contacts within %.2g\n",
+                  "that touch; %u used their budget up; %.1f distances a motion, %u at most; contacts within %.2g; "
+                  "%u against exact contacts\n",
                   seen.free, seen.meets, seen.ends, seen.undecided, seen.open, seen.tied, seen.budget,
-                  (double)seen.queries / (double)count, seen.most, widest);
+                  (double)seen.queries / (double)count, seen.most, widest, seen.exact);
     assert_true(seen.free > 0 && seen.meets > seen.ends && seen.undecided > 0);
+}
+
+static void sweeps_are_never_wrong(void **state) {
+    (void)state;
+    check_all(check_case);
+}
+
+static void sweeps_of_screws_are_never_wrong(void **state) {
+    (void)state;
+    check_all(check_screw);
+    assert_true(seen.exact > 0);
 }
 
 /* --- by hand --- */
@@ -397,6 +528,59 @@ static void outcomes_known_by_hand(void **state) {
     sweep = ask(&h, PIR_OK);
     assert_true(sweep.outcome == PIR_SWEEP_FREE && sweep.queries == 2);
     pir_polytope_release(cube);
+}
+
+static pir_sweep_result ask_screw(const hand *h, const pir_exact_motion *screw, pir_status expected) {
+    pir_pair *pair;
+    pir_workspace *workspace;
+    pir_sweep_result sweep = {.from = -1};
+    assert_int_equal(pir_pair_create(h->p, h->q, NULL, &pair), PIR_OK);
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    assert_int_equal(pir_pair_sweep_screw(pair, workspace, &h->first, screw, h->budget, &sweep), expected);
+    assert_true(expected == PIR_OK || sweep.from == -1);
+    pir_pair_destroy(pair);
+    pir_workspace_destroy(workspace);
+    return sweep;
+}
+
+/* A blade that turns comes down upon a plate, or by it, whatever it turns by: its way is proportional to the angle. */
+static void screws_known_by_hand(void **state) {
+    (void)state;
+    pir_polytope *blade = test_box(4, 0.5, 0.5), *plate = test_box(8, 8, 0.5);
+    hand h = by_hand(blade, plate);
+    h.first.pose_p.translation = (pir_vec3){0, 0, 4};
+    pir_exact_motion screw = {.axis = {0, 0, -3}, .pivot = {1, 1, 9}, .degrees = 1800, .way = {0, 0, -9}};
+    pir_sweep_result sweep = ask_screw(&h, &screw, PIR_OK);
+    assert_int_equal(sweep.outcome, PIR_SWEEP_MEETS);
+    assert_true(sweep.from <= 1.0 / 3 && sweep.to >= 1.0 / 3 && sweep.to - sweep.from < 1e-9);
+    screw.way.z = -2.75;
+    assert_int_equal(ask_screw(&h, &screw, PIR_OK).outcome, PIR_SWEEP_FREE);
+    // the end of a screw is at no double, so touching there is undecided
+    screw.way.z = -3;
+    sweep = ask_screw(&h, &screw, PIR_OK);
+    assert_true(sweep.outcome == PIR_SWEEP_UNDECIDED && sweep.from > 1 - 1e-9 && sweep.to == 1);
+    // at rest and at the start states are exact
+    screw = (pir_exact_motion){.degrees = 0};
+    assert_int_equal(ask_screw(&h, &screw, PIR_OK).outcome, PIR_SWEEP_FREE);
+    h.first.pose_p.translation.z = 1;
+    assert_int_equal(ask_screw(&h, &screw, PIR_OK).outcome, PIR_SWEEP_MEETS);
+    screw = (pir_exact_motion){.axis = {0, 0, 1}, .degrees = 90, .way = {0, 0, 1}};
+    sweep = ask_screw(&h, &screw, PIR_OK);
+    assert_true(sweep.outcome == PIR_SWEEP_MEETS && sweep.to == 0);
+    screw.degrees = 36001;
+    ask_screw(&h, &screw, PIR_ERR_ARGUMENT);
+    screw.degrees = NAN;
+    ask_screw(&h, &screw, PIR_ERR_NOT_FINITE);
+    screw.degrees = 90;
+    screw.axis.z = 0;
+    ask_screw(&h, &screw, PIR_ERR_ARGUMENT);
+    screw.axis.z = 0x1p401;
+    ask_screw(&h, &screw, PIR_ERR_LIMIT);
+    screw.axis.z = 1;
+    screw.pivot.x = 1e200;
+    ask_screw(&h, &screw, PIR_ERR_LIMIT);
+    pir_polytope_release(blade);
+    pir_polytope_release(plate);
 }
 
 static void radii_count(void **state) {
@@ -519,6 +703,8 @@ int main(void) {
     test_print_seed();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sweeps_are_never_wrong),
+        cmocka_unit_test(sweeps_of_screws_are_never_wrong),
+        cmocka_unit_test(screws_known_by_hand),
         cmocka_unit_test(outcomes_known_by_hand),
         cmocka_unit_test(radii_count),
         cmocka_unit_test(the_shorter_way_is_decided_exactly),

@@ -23,6 +23,8 @@ typedef struct two {
     pir_polytope *piece[2][PIECES];
     uint32_t pieces[2];
     pir_pair_input first, second;
+    bool screws; /* along `screw`, in place of to `second` */
+    pir_exact_motion screw;
 } two;
 
 static struct { unsigned outcome[3], fewer, samples; } seen;
@@ -77,7 +79,30 @@ static void make_motion(two *t, test_random *random) {
         t->first.radius_p = t->second.radius_p = 0.125;
 }
 
+/* Likewise a screw of P. */
+static void make_screw(two *t, test_random *random) {
+    const bool aligned = test_random_below(random, 2) == 0;
+    make_motion(t, random);
+    t->second.pose_q = t->first.pose_q;
+    t->screws = true;
+    const pir_pose pivot = random_pose(random, aligned, 3), way = random_pose(random, aligned, 5);
+    t->screw = (pir_exact_motion){.pivot = pivot.translation,
+                                  .axis = aligned ? (pir_vec3){0, 0, 2} : test_random_direction(random),
+                                  .degrees = 90 * test_random_between(random, -5, 5),
+                                  .way = way.translation};
+}
+
 /* --- the loop --- */
+
+static pir_status sweep_of(const two *t, pir_sweep_result *ret_sweep) {
+    return t->screws ? pir_solid_query_sweep_screw(t->query, t->workspace, &t->first, &t->screw, 0, ret_sweep)
+                     : pir_solid_query_sweep(t->query, t->workspace, &t->first, &t->second, 0, ret_sweep);
+}
+
+static pir_status sweep_of_pair(const two *t, pir_pair *pair, pir_sweep_result *ret_sweep) {
+    return t->screws ? pir_pair_sweep_screw(pair, t->workspace, &t->first, &t->screw, 0, ret_sweep)
+                     : pir_pair_sweep(pair, t->workspace, &t->first, &t->second, 0, ret_sweep);
+}
 
 static pir_sweep_result loop(const two *t) {
     pir_sweep_result all = {PIR_SWEEP_FREE, 1, 1, 0};
@@ -87,7 +112,7 @@ static pir_sweep_result loop(const two *t) {
             pir_pair *pair;
             pir_sweep_result sweep;
             assert_int_equal(pir_pair_create(t->piece[0][i], t->piece[1][j], NULL, &pair), PIR_OK);
-            assert_int_equal(pir_pair_sweep(pair, t->workspace, &t->first, &t->second, 0, &sweep), PIR_OK);
+            assert_int_equal(sweep_of_pair(t, pair, &sweep), PIR_OK);
             pir_pair_destroy(pair);
             all.queries += sweep.queries;
             if (sweep.outcome == PIR_SWEEP_FREE)
@@ -123,9 +148,27 @@ static pir_pose between(pir_pose a, pir_pose b, double time) {
                        a.translation.z + time * (b.translation.z - a.translation.z)}};
 }
 
+/* P's pose on a screw: R(t - pivot) + pivot + time·way, R by the formula of Rodrigues. */
+static pir_pose screwed(const two *t, double time) {
+    const pir_exact_motion *s = &t->screw;
+    const double n = sqrt(s->axis.x * s->axis.x + s->axis.y * s->axis.y + s->axis.z * s->axis.z);
+    const double angle = time * s->degrees * 0.017453292519943295, sine = sin(angle / 2), cosine = cos(angle / 2);
+    const pir_vec3 u = {s->axis.x / n, s->axis.y / n, s->axis.z / n}, p = t->first.pose_p.translation;
+    const pir_vec3 x = {p.x - s->pivot.x, p.y - s->pivot.y, p.z - s->pivot.z};
+    const pir_vec3 across = {u.y * x.z - u.z * x.y, u.z * x.x - u.x * x.z, u.x * x.y - u.y * x.x};
+    const double along = (u.x * x.x + u.y * x.y + u.z * x.z) * (1 - cos(angle)), c = cos(angle), w = sin(angle);
+    const pir_quat q = t->first.pose_p.rotation;
+    const double a = sine * u.x, b = sine * u.y, d = sine * u.z;
+    return (pir_pose){{cosine * q.x + a * q.w + b * q.z - d * q.y, cosine * q.y + b * q.w + d * q.x - a * q.z,
+                       cosine * q.z + d * q.w + a * q.y - b * q.x, cosine * q.w - a * q.x - b * q.y - d * q.z},
+                      {c * x.x + w * across.x + along * u.x + s->pivot.x + time * s->way.x,
+                       c * x.y + w * across.y + along * u.y + s->pivot.y + time * s->way.y,
+                       c * x.z + w * across.z + along * u.z + s->pivot.z + time * s->way.z}};
+}
+
 static pir_state state_at(const two *t, double time) {
     pir_pair_input input = t->first;
-    input.pose_p = between(t->first.pose_p, t->second.pose_p, time);
+    input.pose_p = t->screws ? screwed(t, time) : between(t->first.pose_p, t->second.pose_p, time);
     input.pose_q = between(t->first.pose_q, t->second.pose_q, time);
     pir_state state;
     assert_int_equal(pir_solid_query_overlap(t->query, t->workspace, &input, &state), PIR_OK);
@@ -140,8 +183,8 @@ static bool is_half_turn(pir_quat p, pir_quat q) {
 }
 
 static void check_states(const two *t, const pir_sweep_result *sweep, uint64_t number) {
-    if (is_half_turn(t->first.pose_p.rotation, t->second.pose_p.rotation) ||
-        is_half_turn(t->first.pose_q.rotation, t->second.pose_q.rotation))
+    if (!t->screws && (is_half_turn(t->first.pose_p.rotation, t->second.pose_p.rotation) ||
+                       is_half_turn(t->first.pose_q.rotation, t->second.pose_q.rotation)))
         return;
     for (int i = 0; i <= SAMPLES; i++) {
         const double time = sweep->from * i / SAMPLES;
@@ -157,7 +200,7 @@ static void check_states(const two *t, const pir_sweep_result *sweep, uint64_t n
 
 static void check_motion(const two *t, uint64_t number) {
     pir_sweep_result sweep;
-    assert_int_equal(pir_solid_query_sweep(t->query, t->workspace, &t->first, &t->second, 0, &sweep), PIR_OK);
+    assert_int_equal(sweep_of(t, &sweep), PIR_OK);
     const pir_sweep_result all = loop(t);
     seen.outcome[sweep.outcome]++;
     seen.fewer += sweep.queries < all.queries;
@@ -177,7 +220,11 @@ static void sweeps_are_those_of_all_pairs(void **state) {
         two t;
         make_two(&t, &random);
         for (uint32_t k = 0; k < MOTIONS; k++) {
-            make_motion(&t, &random);
+            t.screws = false;
+            if (k % 2 == 0)
+                make_motion(&t, &random);
+            else
+                make_screw(&t, &random);
             check_motion(&t, MOTIONS * i + k);
         }
         free_two(&t);
@@ -210,6 +257,12 @@ static void bad_input_is_refused(void **state) {
     assert_int_equal(pir_solid_query_sweep(t.query, t.workspace, &first, &second, 0, &sweep), PIR_ERR_ARGUMENT);
     first.radius_q = 0;
     assert_int_equal(pir_solid_query_sweep(NULL, t.workspace, &first, &second, 0, &sweep), PIR_ERR_ARGUMENT);
+    pir_exact_motion screw = {.degrees = 90};
+    assert_int_equal(pir_solid_query_sweep_screw(t.query, t.workspace, &first, &screw, 0, &sweep), PIR_ERR_ARGUMENT);
+    screw = (pir_exact_motion){.axis = {0, 0, 1}, .pivot = {0, NAN, 0}};
+    assert_int_equal(pir_solid_query_sweep_screw(t.query, t.workspace, &first, &screw, 0, &sweep), PIR_ERR_NOT_FINITE);
+    screw = (pir_exact_motion){.axis = {0, 0, 1}, .pivot = {0, 1e308, 0}, .degrees = 1, .way = {1e308, 0, 0}};
+    assert_int_equal(pir_solid_query_sweep_screw(t.query, t.workspace, &first, &screw, 0, &sweep), PIR_ERR_LIMIT);
     assert_true(sweep.from == -1);
     assert_int_equal(pir_solid_query_sweep(t.query, t.workspace, &first, &second, 0, &sweep), PIR_OK);
     assert_true(sweep.outcome == PIR_SWEEP_FREE && sweep.queries == 0);

@@ -86,12 +86,13 @@ double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose
     const double rate = theta * body->reach * sqrt(pir_vec_dot(lever, lever)) - w;
     if (distance - plane->near > rate * (1 + 0x1p-40) * until)
         return HUGE_VAL;
-    const double c = pir_vec_dot(n, pir_vec_sub(pose.translation, plane->foot)) - body->radius;
+    const pir_vec3 centre = pir_vec_add(pose.translation, pir_pose_rotate(pose, body->centre));
+    const double c = pir_vec_dot(n, pir_vec_sub(centre, plane->foot)) - body->radius;
     const pir_vec3 in_body = pir_pose_rotate_inverse(pose, n), axis_in_body = pir_pose_rotate_inverse(pose, axis),
                    across = pir_vec_cross(in_body, axis_in_body);
     double first = HUGE_VAL;
     for (uint32_t v = 0; v < body->count; v++) {
-        const pir_vec3 r = body->point[v];
+        const pir_vec3 r = pir_vec_sub(body->point[v], body->centre);
         struct swing s = {.w = w, .a = pir_vec_dot(in_body, r), .b = pir_vec_dot(across, r)};
         double still = along * pir_vec_dot(axis_in_body, r);
         s.a -= still;
@@ -113,6 +114,17 @@ pir_status pir_motion_check(const pir_motion *motion, double tolerance) {
     if (!(tolerance > 0 && tolerance < HUGE_VAL && motion->held >= 0))
         return PIR_ERR_ARGUMENT;
     return sqrt(pir_vec_dot(motion->turn, motion->turn)) <= MOST_TURN ? PIR_OK : PIR_ERR_LIMIT;
+}
+
+pir_status pir_screw_check(const pir_exact_motion *motion, double most_degrees) {
+    if (!pir_vec_is_finite(motion->pivot) || !pir_vec_is_finite(motion->axis) || !pir_vec_is_finite(motion->way) ||
+        !isfinite(motion->degrees))
+        return PIR_ERR_NOT_FINITE;
+    const pir_vec3 u = motion->axis;
+    const double most = fmax(fmax(fabs(u.x), fabs(u.y)), fabs(u.z)), degrees = fabs(motion->degrees);
+    if (degrees > most_degrees || (degrees > 0 && most == 0))
+        return PIR_ERR_ARGUMENT;
+    return degrees > 0 && !(most >= 0x1p-400 && most <= 0x1p400) ? PIR_ERR_LIMIT : PIR_OK;
 }
 
 /* How near a body has to come to have met another that is `distance` away at time 0; 0 where it cannot. */

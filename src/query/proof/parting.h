@@ -7,19 +7,21 @@
 #ifndef PIR_QUERY_PROOF_PARTING_H
 #define PIR_QUERY_PROOF_PARTING_H
 
+#include <pirouette/impact.h>
 #include <pirouette/motion.h>
 #include <pirouette/pose.h>
 #include <pirouette/query.h>
 
 #include "base/vec.h"
 
-/* A body of these points, grown by a radius, moves over time 0 to 1 at constant speed, and turns about its origin. */
+/* A body of these points, grown by a radius, moves over time 0 to 1 at constant speed, and turns about its centre. */
 typedef struct pir_parted {
     const pir_vec3 *point;
     uint32_t count;
     double radius;
-    double reach;       /* no point is farther from the origin */
+    double reach;       /* no point is farther from the centre */
     pir_vec3 way, turn; /* in the world; the turn along its axis, as long as the angle */
+    pir_vec3 centre;    /* in the body's frame */
 } pir_parted;
 
 /* A plane below the body, and how near the body may come. */
@@ -41,6 +43,12 @@ double pir_part_until(const pir_parted *body, const pir_parting *plane, pir_pose
 
 /* PIR_ERR_NOT_FINITE, PIR_ERR_ARGUMENT for a tolerance not above 0 or `held` below 0, PIR_ERR_LIMIT for the turn. */
 pir_status pir_motion_check(const pir_motion *motion, double tolerance);
+
+/*
+ * Whether a turn, a way or a screw of at most so many degrees can be: PIR_ERR_NOT_FINITE; PIR_ERR_ARGUMENT for the
+ * angle, or an axis of length 0; PIR_ERR_LIMIT for an axis whose greatest component is beyond 2^±400.
+ */
+pir_status pir_screw_check(const pir_exact_motion *motion, double most_degrees);
 
 /* An advance, and the source of distances that it takes its steps by. */
 typedef struct pir_advance pir_advance;

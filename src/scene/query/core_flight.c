@@ -32,8 +32,12 @@ bool pir_core_flight_begin(pir_core_flight *flight, const pir_probe *probe, cons
         pir_rotation_set(&rotation, probe->pose.rotation) != PIR_OK)
         return false;
     flight->polytope = polytope;
-    flight->parted = (pir_parted){
-        polytope->vertex, polytope->vertex_count, probe->radius, probe->extent.reach, motion->way, motion->turn};
+    flight->parted = (pir_parted){.point = polytope->vertex,
+                                  .count = polytope->vertex_count,
+                                  .radius = probe->radius,
+                                  .reach = probe->extent.reach,
+                                  .way = motion->way,
+                                  .turn = motion->turn};
     flight->from = probe->pose;
     flight->tolerance = tolerance;
     flight->turns = motion->turn.x != 0 || motion->turn.y != 0 || motion->turn.z != 0;
