@@ -9,90 +9,87 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "exact/rotation.h"
 #include "impact/course.h"
 #include "impact/pair_impact.h"
 
 /* --- making --- */
 
-/* The matrix of a quaternion, not divided by its square, which is `ret_norm`. */
-static void make_matrix(pir_quat q, mpq_t m[9], mpq_t ret_norm) {
-    const double given[4] = {q.x, q.y, q.z, q.w};
-    mpq_t c[4], product[4][4], sum;
-    mpq_init(sum);
-    for (int i = 0; i < 4; i++) {
-        mpq_init(c[i]);
-        mpq_set_d(c[i], given[i]);
-    }
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) {
-            mpq_init(product[i][j]);
-            mpq_mul(product[i][j], c[i], c[j]);
-        }
-    mpq_set_ui(ret_norm, 0, 1);
-    for (int i = 0; i < 4; i++)
-        mpq_add(ret_norm, ret_norm, product[i][i]);
-    for (int j = 0; j < 3; j++)
-        for (int i = 0; i < 3; i++) {
-            // 2 q_j q_i, and ±2 w q_k; on the diagonal w² − |v|² besides
-            mpq_add(m[3 * j + i], product[j][i], product[j][i]);
-            const int k = 3 - i - j;
-            if (i == j) {
-                mpq_sub(m[3 * j + i], m[3 * j + i], ret_norm);
-                mpq_add(sum, product[3][3], product[3][3]);
-                mpq_add(m[3 * j + i], m[3 * j + i], sum);
-            } else {
-                mpq_add(sum, product[3][k], product[3][k]);
-                if ((i + 1) % 3 == j)
-                    mpq_add(m[3 * j + i], m[3 * j + i], sum);
-                else
-                    mpq_sub(m[3 * j + i], m[3 * j + i], sum);
-            }
-        }
-    for (int i = 0; i < 4; i++) {
-        mpq_clear(c[i]);
-        for (int j = 0; j < 4; j++)
-            mpq_clear(product[i][j]);
-    }
-    mpq_clear(sum);
+/* A body's rotation with its scale: points are m·v/divisor of the integers v that the polytope has. */
+typedef struct turned_body {
+    mpz_t m[9], divisor;
+} turned_body;
+
+/* What an integer views, read only: valid while the other is. */
+static mpz_srcptr viewed(mpz_t view, const pir_int *a) {
+    return mpz_roinit_n(view, a->limb, a->size);
 }
 
-/* The points of a body, relative to the pivot, and the common denominator taken in. */
-static void make_points(const pir_course *course, int which, mpq_t *dst, mpz_t common) {
-    const pir_pose *pose = &course->pose[which];
-    const double move[3][2] = {{pose->translation.x, course->pivot.x},
-                               {pose->translation.y, course->pivot.y},
-                               {pose->translation.z, course->pivot.z}};
-    mpq_t m[9], norm, v[3], by;
-    mpq_inits(norm, v[0], v[1], v[2], by, NULL);
+static void turned_body_init(turned_body *body, const pir_polytope *polytope, pir_quat q) {
+    pir_rotation rotation;
+    pir_rotation_integers integers;
+    mpz_t view, common;
+    pir_rotation_set_given(&rotation, q);
+    rotation.integers = &integers;
+    pir_rotation_make_exact(&rotation);
+    mpz_init_set(body->divisor, viewed(view, &integers.norm));
+    mpz_init_set(common, body->divisor);
+    for (int i = 0; i < 9; i++) {
+        mpz_init_set(body->m[i], viewed(view, &integers.m[i / 3][i % 3]));
+        mpz_gcd(common, common, body->m[i]);
+    }
+    mpz_divexact(body->divisor, body->divisor, common);
+    mpz_mul(body->divisor, body->divisor, viewed(view, &polytope->scale.den));
+    for (int i = 0; i < 9; i++) {
+        mpz_divexact(body->m[i], body->m[i], common);
+        mpz_mul(body->m[i], body->m[i], viewed(view, &polytope->scale.num));
+    }
+    mpz_clear(common);
+}
+
+static void turned_body_clear(turned_body *body) {
     for (int i = 0; i < 9; i++)
-        mpq_init(m[i]);
-    make_matrix(pose->rotation, m, norm);
-    for (uint32_t i = 0; i < course->body[which]->vertex_count; i++) {
-        pir_polytope_vertex_exact(course->body[which], i, v);
+        mpz_clear(body->m[i]);
+    mpz_clear(body->divisor);
+}
+
+/* dst = x·by, which is an integer. */
+static void times_double(mpz_t dst, double x, const mpz_t by) {
+    int e;
+    mpz_mul_ui(dst, by, (unsigned long)pir_double_split(x, &e));
+    if (e >= 0)
+        mpz_mul_2exp(dst, dst, (mp_bitcnt_t)e);
+    else
+        mpz_tdiv_q_2exp(dst, dst, (mp_bitcnt_t)-e);
+    if (x < 0)
+        mpz_neg(dst, dst);
+}
+
+/* The points of a body, relative to the pivot, times the common denominator. The matrix is lost. */
+static void make_points(pir_course *course, int which, turned_body *body, const mpz_t common) {
+    const pir_polytope *polytope = course->body[which];
+    const pir_vec3 t = course->pose[which].translation, pivot = course->pivot;
+    mpz_t move[3], factor, view;
+    mpz_init(factor);
+    mpz_divexact(factor, common, body->divisor);
+    for (int i = 0; i < 9; i++)
+        mpz_mul(body->m[i], body->m[i], factor);
+    for (int j = 0; j < 3; j++) {
+        mpz_init(move[j]);
+        times_double(move[j], pir_vec_component(t, j), common);
+        times_double(factor, pir_vec_component(pivot, j), common);
+        mpz_sub(move[j], move[j], factor);
+    }
+    for (uint32_t i = 0; i < polytope->vertex_count; i++) {
+        const pir_int3 v = pir_vertex_exact(polytope, i);
         for (int j = 0; j < 3; j++) {
-            mpq_t *at = &dst[3 * (size_t)i + (size_t)j];
-            mpq_set_ui(*at, 0, 1);
-            for (int k = 0; k < 3; k++) {
-                mpq_mul(by, m[3 * j + k], v[k]);
-                mpq_add(*at, *at, by);
-            }
-            mpq_div(*at, *at, norm);
-            mpq_set_d(by, move[j][0]);
-            mpq_add(*at, *at, by);
-            mpq_set_d(by, move[j][1]);
-            mpq_sub(*at, *at, by);
-            mpz_lcm(common, common, mpq_denref(*at));
+            mpz_ptr at = course->exact.point[which][3 * (size_t)i + (size_t)j];
+            mpz_set(at, move[j]);
+            for (int k = 0; k < 3; k++)
+                mpz_addmul(at, body->m[3 * j + k], viewed(view, &v.c[k]));
         }
     }
-    for (int i = 0; i < 9; i++)
-        mpq_clear(m[i]);
-    mpq_clears(norm, v[0], v[1], v[2], by, NULL);
-}
-
-/* dst = src·common, an integer. */
-static void scale_up(mpz_t dst, const mpq_t src, const mpz_t common) {
-    mpz_divexact(dst, common, mpq_denref(src));
-    mpz_mul(dst, dst, mpq_numref(src));
+    mpz_clears(move[0], move[1], move[2], factor, NULL);
 }
 
 static void make_axis(pir_course *course) {
@@ -175,30 +172,35 @@ static void free_integers(pir_course *course) {
         PIR_FREE(course->allocator, exact->limbs, exact->scratch.capacity);
 }
 
+/* The exponent of the lowest bit of all translations, the pivot and the way, at most 0. */
+static int lowest_bit(const pir_course *course) {
+    const pir_vec3 all[] = {course->pose[0].translation, course->pose[1].translation, course->pivot, course->way};
+    int low = 0;
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < 3; k++) {
+            const int bit = pir_double_low_bit(pir_vec_component(all[i], k));
+            low = bit < low ? bit : low;
+        }
+    return low;
+}
+
 /* Both bodies and the way, on their common denominator. */
-static void make_scaled(pir_course *course, mpq_t *rational, size_t count_p) {
-    pir_course_integers *exact = &course->exact;
-    const double way[3] = {course->way.x, course->way.y, course->way.z};
+static void make_scaled(pir_course *course) {
+    turned_body body[2];
     mpz_t common;
-    mpq_t step;
     mpz_init_set_ui(common, 1);
-    mpq_init(step);
-    make_points(course, 0, rational, common);
-    make_points(course, 1, rational + count_p, common);
-    for (int k = 0; k < 3; k++) {
-        mpq_set_d(step, way[k]);
-        mpz_lcm(common, common, mpq_denref(step));
+    mpz_mul_2exp(common, common, (mp_bitcnt_t)-lowest_bit(course));
+    for (int which = 0; which < 2; which++) {
+        turned_body_init(&body[which], course->body[which], course->pose[which].rotation);
+        mpz_lcm(common, common, body[which].divisor);
     }
-    for (int k = 0; k < 3; k++) {
-        mpq_set_d(step, way[k]);
-        scale_up(exact->way[k], step, common);
+    for (int which = 0; which < 2; which++) {
+        make_points(course, which, &body[which], common);
+        turned_body_clear(&body[which]);
     }
-    for (size_t i = 0; i < count_p; i++)
-        scale_up(exact->point[0][i], rational[i], common);
-    for (size_t i = 0; i < 3 * (size_t)course->body[1]->vertex_count; i++)
-        scale_up(exact->point[1][i], rational[count_p + i], common);
+    for (int k = 0; k < 3; k++)
+        times_double(course->exact.way[k], pir_vec_component(course->way, k), common);
     mpz_clear(common);
-    mpq_clear(step);
 }
 
 pir_status pir_course_integers_make(pir_course *course) {
@@ -206,9 +208,6 @@ pir_status pir_course_integers_make(pir_course *course) {
         return PIR_OK;
     pir_course_integers *exact = &course->exact;
     const size_t count[2] = {3 * (size_t)course->body[0]->vertex_count, 3 * (size_t)course->body[1]->vertex_count};
-    mpq_t *rational = PIR_NEW(course->allocator, mpq_t, count[0] + count[1]);
-    if (rational == NULL)
-        return PIR_ERR_MEMORY;
     exact->limbs = NULL;
     for (int which = 0; which < 2; which++) {
         exact->point[which] = PIR_NEW(course->allocator, mpz_t, count[which]);
@@ -217,8 +216,6 @@ pir_status pir_course_integers_make(pir_course *course) {
     }
     for (int k = 0; k < 3; k++)
         mpz_inits(exact->way[k], exact->root[k], exact->other[k], NULL);
-    for (size_t i = 0; i < count[0] + count[1]; i++)
-        mpq_init(rational[i]);
     make_axis(course);
     mpz_init(exact->end);
     pir_cubic_init(&exact->cubic);
@@ -227,12 +224,9 @@ pir_status pir_course_integers_make(pir_course *course) {
         make_end(course);
     bool made = exact->point[0] != NULL && exact->point[1] != NULL;
     if (made) {
-        make_scaled(course, rational, count[0]);
+        make_scaled(course);
         made = make_room(course);
     }
-    for (size_t i = 0; i < count[0] + count[1]; i++)
-        mpq_clear(rational[i]);
-    PIR_FREE(course->allocator, rational, count[0] + count[1]);
     if (!made)
         free_integers(course);
     course->has_integers = made;
