@@ -20,7 +20,7 @@ typedef struct turned_body {
     mpz_t m[9], divisor;
 } turned_body;
 
-/* What an integer views, read only: valid while the other is. */
+/* A view of an integer, read only, valid while that is. */
 static mpz_srcptr viewed(mpz_t view, const pir_int *a) {
     return mpz_roinit_n(view, a->limb, a->size);
 }

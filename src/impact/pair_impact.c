@@ -59,14 +59,6 @@ static bool plane_near(impact_job *job, const pir_query_result *result, pir_cond
            pir_parts_strictly(&job->search, ret_plane, PIR_SIGN_NOW);
 }
 
-static bool plane_by_query(impact_job *job, pir_condition *ret_plane) {
-    pir_query_result result;
-    const pir_status status = ask_now(job, &result);
-    if (status != PIR_OK)
-        job->search.status = status;
-    return status == PIR_OK && plane_near(job, &result, ret_plane);
-}
-
 /* --- the search --- */
 
 /* Whether the bodies are apart at the root where the last plane ended; the next plane then is found. */
@@ -75,11 +67,15 @@ static bool is_apart(impact_job *job) {
     const pir_condition *ended = &search->now.root;
     if (ended->kind != PIR_CROSSING && pir_features_touch(search, ended))
         return false;
+    pir_query_result result;
+    if (search->status == PIR_OK)
+        search->status = ask_now(job, &result);
     if (search->status != PIR_OK)
         return false;
     pir_condition plane;
-    const bool found =
-        plane_by_query(job, &plane) || (search->status == PIR_OK && pir_candidates_any(search, PIR_SIGN_NOW, &plane));
+    bool found = plane_near(job, &result, &plane);
+    if (!found && search->status == PIR_OK && !pir_witness_touches(search, &result.witness))
+        found = pir_candidates_any(search, PIR_SIGN_NOW, &plane);
     if (found)
         job->plane = plane;
     return found;

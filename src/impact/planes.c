@@ -198,3 +198,19 @@ bool pir_features_touch(pir_impact_search *search, const pir_condition *slack) {
     }
     return is_cut(search, slack, PIR_Q_PLANE) && is_cut(search, slack, PIR_P_PLANE);
 }
+
+/* A facet that has a face. */
+static uint32_t facet_of(const pir_polytope *body, pir_feature face) {
+    if (face.kind == PIR_FEATURE_FACET)
+        return face.index;
+    return body->left[face.kind == PIR_FEATURE_EDGE ? body->edge_half[face.index] : body->ring_start[face.index]];
+}
+
+bool pir_witness_touches(pir_impact_search *search, const pir_witness *witness) {
+    const bool of_q = witness->p.kind == PIR_FEATURE_VERTEX;
+    if (!of_q && witness->q.kind != PIR_FEATURE_VERTEX)
+        return false;
+    pir_condition slack = {.kind = of_q ? PIR_Q_PLANE : PIR_P_PLANE, .p = witness->p.index, .q = witness->q.index};
+    *(of_q ? &slack.q : &slack.p) = facet_of(search->course.body[of_q], of_q ? witness->q : witness->p);
+    return pir_search_sign(search, &slack, PIR_SIGN_NOW) == 0 && is_within(search, &slack);
+}

@@ -31,4 +31,7 @@ bool pir_candidates_rest(pir_impact_search *search);
  */
 bool pir_features_touch(pir_impact_search *search, const pir_condition *slack);
 
+/* Whether a vertex that an answer of now names is in the other's face there. False proves nothing. */
+bool pir_witness_touches(pir_impact_search *search, const pir_witness *witness);
+
 #endif
