@@ -247,6 +247,16 @@ static void check_first(const pir_query_result *result, const pir_gradient *grad
               active->features.q.kind, active->features.q.index);
 }
 
+/* The features that may decide, and one motion by these and by all. */
+static void settle(struct scene *s, const pir_pair_input *input) {
+    static const double motion[12] = {0.5, -0.25, 0.75, 0.25, 1, -0.5, -1, 0.5, 0.125, -0.75, 0.25, 1};
+    oracle_signed_distance(s->oracle, &input->pose_p, &input->pose_q, motion, STEP, s->before);
+    oracle_signed_settle(s->oracle, &input->pose_p, &input->pose_q);
+    oracle_signed_distance(s->oracle, &input->pose_p, &input->pose_q, motion, STEP, s->after);
+    if (mpf_cmp(s->before, s->after) != 0)
+        FAULT("the oracle's candidates tell %g where all features tell %g", mpf_get_d(s->after), mpf_get_d(s->before));
+}
+
 static void check_pose(struct scene *s, const pir_pair_input *input, test_random *random, bool aligned, int motions) {
     static const double still[12];
     static pir_active active[ROOM];
@@ -260,6 +270,7 @@ static void check_pose(struct scene *s, const pir_pair_input *input, test_random
     check_curvature(&curvature);
     check_first(&result, &gradient, active);
     oracle_signed_distance(s->oracle, &input->pose_p, &input->pose_q, still, STEP, s->at);
+    settle(s, input);
     const double scale =
         1 + size_of(s) + test_length(input->pose_p.translation) + test_length(input->pose_q.translation);
     const double radii = input->radius_p + input->radius_q, polytopes = mpf_get_d(s->at);
