@@ -56,6 +56,11 @@ typedef struct pir_course_form {
     double c[4], bound;
 } pir_course_form;
 
+/* What conditions are computed in, kept for the next; of mpz_t alone. */
+typedef struct pir_course_work {
+    mpz_t first[3], second[3], turned[3], a[3], b[3], other[3], rest[3], x, y, z, h;
+} pir_course_work;
+
 /* Exact numbers, made when a filter fails first; GMP's, for they are rationals on one scale. */
 typedef struct pir_course_integers {
     mpz_t *point[2]; /* per body three a vertex */
@@ -66,6 +71,7 @@ typedef struct pir_course_integers {
     pir_cubic cubic;
     pir_cubic_root cubic_root;
     mpz_t root[3], other[3];
+    pir_course_work work;
     mp_limb_t *limbs;
     uint32_t double_limbs; /* of a double as a quadratic */
     pir_limbs scratch;

@@ -13,6 +13,8 @@
 #include "impact/course.h"
 #include "impact/pair_impact.h"
 
+#define WORK_NUMBERS (sizeof(pir_course_work) / sizeof(mpz_t))
+
 /* --- making --- */
 
 /* A body's rotation with its scale: points are m·v/divisor of the integers v that the polytope has. */
@@ -166,6 +168,9 @@ static void free_integers(pir_course *course) {
     for (int k = 0; k < 3; k++)
         mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->other[k], NULL);
     mpz_clears(exact->square, exact->end, NULL);
+    mpz_t *work = (mpz_t *)&exact->work;
+    for (size_t i = 0; i < WORK_NUMBERS; i++)
+        mpz_clear(work[i]);
     pir_cubic_clear(&exact->cubic);
     pir_cubic_root_clear(&exact->cubic_root);
     if (exact->limbs != NULL)
@@ -216,6 +221,9 @@ pir_status pir_course_integers_make(pir_course *course) {
     }
     for (int k = 0; k < 3; k++)
         mpz_inits(exact->way[k], exact->root[k], exact->other[k], NULL);
+    mpz_t *work = (mpz_t *)&exact->work;
+    for (size_t i = 0; i < WORK_NUMBERS; i++)
+        mpz_init(work[i]);
     make_axis(course);
     mpz_init(exact->end);
     pir_cubic_init(&exact->cubic);
@@ -245,18 +253,6 @@ void pir_course_finish(pir_course *course) {
 
 /* --- conditions --- */
 
-typedef struct spatial {
-    mpz_t c[3];
-} spatial;
-
-static void spatial_init(spatial *v) {
-    mpz_inits(v->c[0], v->c[1], v->c[2], NULL);
-}
-
-static void spatial_clear(spatial *v) {
-    mpz_clears(v->c[0], v->c[1], v->c[2], NULL);
-}
-
 static void add_times(mpz_t dst, const mpz_t a, int by) {
     if (by >= 0)
         mpz_addmul_ui(dst, a, (unsigned long)by);
@@ -270,11 +266,12 @@ static void dot(mpz_t dst, mpz_t *a, mpz_t *b) {
     mpz_addmul(dst, a[2], b[2]);
 }
 
-static void cross(spatial *dst, mpz_t *a, mpz_t *b) {
+/* dst is neither a nor b. */
+static void cross(mpz_t *dst, mpz_t *a, mpz_t *b) {
     for (int k = 0; k < 3; k++) {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        mpz_mul(dst->c[k], a[i], b[j]);
-        mpz_submul(dst->c[k], a[j], b[i]);
+        mpz_mul(dst[k], a[i], b[j]);
+        mpz_submul(dst[k], a[j], b[i]);
     }
 }
 
@@ -282,49 +279,40 @@ static mpz_t *point_of(const pir_course *course, int which, uint32_t v) {
     return &course->exact.point[which][3 * (size_t)v];
 }
 
-static void half_of(const pir_course *course, int which, uint32_t half, spatial *dst) {
+static void half_of(const pir_course *course, int which, uint32_t half, mpz_t *dst) {
     const pir_polytope *body = course->body[which];
     mpz_t *a = point_of(course, which, body->origin[half]), *b = point_of(course, which, body->target[half]);
     for (int k = 0; k < 3; k++)
-        mpz_sub(dst->c[k], b[k], a[k]);
+        mpz_sub(dst[k], b[k], a[k]);
 }
 
 /* Outwards: of two halfedges of its loop. */
-static void normal_of(const pir_course *course, int which, uint32_t facet, spatial *dst) {
+static void normal_of(pir_course *course, int which, uint32_t facet, mpz_t *dst) {
     const pir_polytope *body = course->body[which];
     const uint32_t *loop = &body->loop[body->loop_start[facet]];
-    spatial a, b;
-    spatial_init(&a);
-    spatial_init(&b);
-    half_of(course, which, loop[0], &a);
-    half_of(course, which, loop[1], &b);
-    cross(dst, a.c, b.c);
-    spatial_clear(&a);
-    spatial_clear(&b);
+    pir_course_work *work = &course->exact.work;
+    half_of(course, which, loop[0], work->first);
+    half_of(course, which, loop[1], work->second);
+    cross(dst, work->first, work->second);
 }
 
 /* Adds by·(y·R x). */
 static void add_product(pir_course *course, mpz_t *c, mpz_t *x, mpz_t *y, int by) {
     pir_course_integers *exact = &course->exact;
-    mpz_t xy, other, last;
-    mpz_inits(xy, other, last, NULL);
-    dot(xy, x, y);
-    add_times(c[0], xy, by);
-    if (course->turns) {
-        spatial turned;
-        spatial_init(&turned);
-        cross(&turned, exact->axis, x);
-        dot(other, turned.c, y);
-        add_times(c[1], other, 2 * by);
-        dot(other, exact->axis, x);
-        dot(last, exact->axis, y);
-        mpz_mul(other, other, last);
-        add_times(c[2], other, 2 * by);
-        mpz_mul(xy, xy, exact->square);
-        add_times(c[2], xy, -by);
-        spatial_clear(&turned);
-    }
-    mpz_clears(xy, other, last, NULL);
+    pir_course_work *work = &exact->work;
+    dot(work->x, x, y);
+    add_times(c[0], work->x, by);
+    if (!course->turns)
+        return;
+    cross(work->turned, exact->axis, x);
+    dot(work->y, work->turned, y);
+    add_times(c[1], work->y, 2 * by);
+    dot(work->y, exact->axis, x);
+    dot(work->z, exact->axis, y);
+    mpz_mul(work->y, work->y, work->z);
+    add_times(c[2], work->y, 2 * by);
+    mpz_mul(work->x, work->x, exact->square);
+    add_times(c[2], work->x, -by);
 }
 
 /* `rest`: of a screw, what λ = κ₁/κ is multiplied by. */
@@ -335,72 +323,60 @@ static void exact_of_plane(pir_course *course, const pir_condition *on, mpz_t c[
     const pir_polytope *body = course->body[own];
     const uint32_t face = of_q ? on->q : on->p, v = of_q ? on->p : on->q;
     const uint32_t base = body->origin[is_side ? face : body->loop[body->loop_start[face]]];
-    spatial n, along;
-    mpz_t h;
-    spatial_init(&n);
-    spatial_init(&along);
-    mpz_init(h);
-    normal_of(course, own, is_side ? body->left[face] : face, &n);
+    pir_course_work *work = &course->exact.work;
+    mpz_t *n = work->a;
+    mpz_ptr h = work->h;
+    normal_of(course, own, is_side ? body->left[face] : face, n);
     if (is_side) {
-        spatial normal = n;
-        spatial_init(&n);
-        half_of(course, own, face, &along);
-        cross(&n, along.c, normal.c);
-        spatial_clear(&normal);
+        half_of(course, own, face, work->b);
+        cross(work->other, work->b, n);
+        n = work->other;
     } else {
         for (int k = 0; k < 3; k++)
-            mpz_neg(n.c[k], n.c[k]);
+            mpz_neg(n[k], n[k]);
     }
     if (of_q)
-        add_product(course, c, point_of(course, 0, v), n.c, 1);
+        add_product(course, c, point_of(course, 0, v), n, 1);
     else
-        add_product(course, c, n.c, point_of(course, 1, v), 1);
-    dot(h, n.c, point_of(course, own, base));
+        add_product(course, c, n, point_of(course, 1, v), 1);
+    dot(h, n, point_of(course, own, base));
     mpz_sub(c[0], c[0], h);
     if (course->turns)
         mpz_submul(c[2], h, course->exact.square);
-    dot(h, n.c, course->exact.way);
+    dot(h, n, course->exact.way);
     if (!course->turns)
         add_times(c[1], h, of_q ? 1 : -1);
     if (rest && of_q) {
         mpz_set(rest[0], h);
         mpz_mul(rest[2], h, course->exact.square);
     } else if (rest) {
-        add_product(course, rest, n.c, course->exact.way, -1);
+        add_product(course, rest, n, course->exact.way, -1);
     }
-    mpz_clear(h);
-    spatial_clear(&n);
-    spatial_clear(&along);
 }
 
 static void exact_of_edges(pir_course *course, const pir_condition *on, mpz_t c[3], mpz_t *rest) {
     const pir_polytope *p = course->body[0], *q = course->body[1];
-    spatial e, f, other;
-    spatial_init(&e);
-    spatial_init(&f);
-    spatial_init(&other);
-    half_of(course, 0, p->edge_half[on->p], &e);
-    half_of(course, 1, q->edge_half[on->q], &f);
+    pir_course_work *work = &course->exact.work;
+    mpz_t *e = work->a, *f = work->b, *other = work->other;
+    half_of(course, 0, p->edge_half[on->p], e);
+    half_of(course, 1, q->edge_half[on->q], f);
     if (on->kind == PIR_CROSSING) {
         const int which = on->corner < 2 ? 0 : 1;
         const pir_arc_ends ends = course->body[which]->arc_ends[which == 0 ? on->p : on->q];
-        normal_of(course, which, on->corner % 2 == 0 ? ends.from : ends.to, &other);
+        normal_of(course, which, on->corner % 2 == 0 ? ends.from : ends.to, other);
         const int by = on->corner % 2 == 0 ? on->side : -on->side;
-        add_product(course, c, which == 0 ? other.c : e.c, which == 0 ? f.c : other.c, by);
+        add_product(course, c, which == 0 ? other : e, which == 0 ? f : other, by);
     } else {
-        cross(&other, point_of(course, 0, p->origin[p->edge_half[on->p]]), e.c);
-        add_product(course, c, other.c, f.c, -on->side);
-        cross(&other, f.c, point_of(course, 1, q->origin[q->edge_half[on->q]]));
-        add_product(course, c, e.c, other.c, on->side);
-        cross(&other, f.c, course->exact.way);
+        cross(other, point_of(course, 0, p->origin[p->edge_half[on->p]]), e);
+        add_product(course, c, other, f, -on->side);
+        cross(other, f, point_of(course, 1, q->origin[q->edge_half[on->q]]));
+        add_product(course, c, e, other, on->side);
+        cross(other, f, course->exact.way);
         if (!course->turns)
-            add_product(course, c + 1, e.c, other.c, -on->side);
+            add_product(course, c + 1, e, other, -on->side);
         if (rest)
-            add_product(course, rest, e.c, other.c, -on->side);
+            add_product(course, rest, e, other, -on->side);
     }
-    spatial_clear(&e);
-    spatial_clear(&f);
-    spatial_clear(&other);
 }
 
 static void make_exact(pir_course *course, const pir_condition *on, mpz_t dst[3], mpz_t *rest) {
@@ -418,15 +394,15 @@ void pir_course_exact(pir_course *course, const pir_condition *on, mpz_t dst[3])
 }
 
 void pir_course_cubic(pir_course *course, const pir_condition *on, pir_cubic *dst) {
-    mpz_t rest[3];
-    mpz_inits(rest[0], rest[1], rest[2], NULL);
+    mpz_t *rest = course->exact.work.rest;
+    for (int i = 0; i < 3; i++)
+        mpz_set_ui(rest[i], 0);
     make_exact(course, on, dst->c, rest);
     mpz_set_ui(dst->c[3], 0);
     for (int i = 0; i < 3; i++)
         mpz_mul_2exp(dst->c[i], dst->c[i], course->exact.end_shift);
     for (int i = 0; i < 3; i++)
         mpz_addmul(dst->c[i + 1], course->exact.end, rest[i]);
-    mpz_clears(rest[0], rest[1], rest[2], NULL);
     pir_cubic_trim(dst);
 }
 
