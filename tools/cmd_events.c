@@ -188,12 +188,13 @@ static bool end(struct turn *turn) {
     const char *path = args_value(turn->args, "--plot");
     if (path) {
         struct output_file file = {0};
-        const struct events_chart chart = {.title = model_title(turn->args->positional[0]),
-                                           .from = turn->request.from,
-                                           .to = turn->request.to,
-                                           .facets = turn->facets_first,
-                                           .event = turn->seen,
-                                           .count = turn->count};
+        const struct events_chart chart = {
+            .title = {model_title(turn->args->positional[0]), model_title(turn->args->positional[1])},
+            .from = turn->request.from,
+            .to = turn->request.to,
+            .facets = turn->facets_first,
+            .event = turn->seen,
+            .count = turn->count};
         bool written = output_open(&file, path);
         if (written) {
             events_picture_write(file.stream, &chart);

@@ -14,9 +14,9 @@ struct chart_event {
 };
 
 struct events_chart {
-    const char *title;
-    double from, to; /* degrees, from < to */
-    uint32_t facets; /* before the first event */
+    const char *title[2]; /* of P and Q */
+    double from, to;      /* degrees, from < to */
+    uint32_t facets;      /* before the first event */
     const struct chart_event *event;
     size_t count;
 };

@@ -78,6 +78,7 @@ class Events(CommandTest):
         root = ElementTree.parse(picture).getroot()
         self.assertGreater(len(list(root.iter("{http://www.w3.org/2000/svg}path"))), 10)
         self.assertIn("3 events", picture.read_text())
+        self.assertIn("shape:cube, turning, and shape:cube<", picture.read_text())
         drawn = self.good("events", "shape:cube", "shape:cube", "--plot", "-")
         self.assertEqual(drawn, picture.read_text())
 
