@@ -56,7 +56,7 @@ typedef struct pir_course_form {
     double c[4], bound;
 } pir_course_form;
 
-/* What conditions are computed in, kept for the next; of mpz_t alone. */
+/* Numbers that conditions are computed in, kept for the next one; of mpz_t alone. */
 typedef struct pir_course_work {
     mpz_t first[3], second[3], turned[3], a[3], b[3], other[3], rest[3], x, y, z, h;
 } pir_course_work;

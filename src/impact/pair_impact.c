@@ -152,7 +152,7 @@ static void tell_hit(impact_job *job, pir_exact_impact *impact) {
     pir_impact_search *search = &job->search;
     pir_search_refine(search);
     pir_search_kappa(search, impact->kappa);
-    const double phi = fmax(0, search->now.phi - search->now.slack - 0x1p-49);
+    const double now = search->now.phi, phi = fmax(0, now - search->now.slack - 0x1p-49 * fmin(1, now));
     const double down = 1 - 0x1p-50;
     if (search->course.turns) {
         impact->degrees = fmin(2 * phi * DEGREE * down, fabs(job->motion->degrees));

@@ -254,5 +254,5 @@ void pir_screw_refine(pir_impact_search *search) {
     if (search->status != PIR_OK)
         return;
     search->now.phi = phi_of(&search->course, root);
-    search->now.slack = 0x1p-46;
+    search->now.slack = 0x1p-46 * fmin(1, search->now.phi);
 }

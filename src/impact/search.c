@@ -234,7 +234,7 @@ void pir_search_go_to(pir_impact_search *search, pir_moment moment) {
 }
 
 void pir_search_refine(pir_impact_search *search) {
-    if (search->now.slack <= 0x1p-33 || !make_integers(search))
+    if (search->now.slack <= 0x1p-33 * fmin(1, search->end.phi) || !make_integers(search))
         return;
     if (search->course.screws) {
         pir_screw_refine(search);
@@ -242,7 +242,7 @@ void pir_search_refine(pir_impact_search *search) {
     }
     const pir_quadratic root = root_of_now(search);
     search->now.phi = phi_of(&search->course, &root, &search->course.exact.scratch);
-    search->now.slack = 0x1p-46;
+    search->now.slack = 0x1p-46 * fmin(1, search->now.phi);
 }
 
 /* --- κ --- */

@@ -46,7 +46,7 @@ pir_moment pir_search_exit(pir_impact_search *search, const pir_condition *plane
 
 void pir_search_go_to(pir_impact_search *search, pir_moment moment);
 
-/* Makes the slack of now, a root, at most 2^-33. */
+/* Makes the slack of now, a root, at most 2^-33, and of a short motion at most 2^-33 of it. */
 void pir_search_refine(pir_impact_search *search);
 
 /* Doubles around now's κ, a root. */

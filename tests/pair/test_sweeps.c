@@ -282,12 +282,16 @@ static pir_pair_input input_at(const mover *p, const mover *q, int end) {
     return input;
 }
 
-/* Turns alone and ways alone have exact first contacts, at the same fractions. */
+/*
+ * Turns alone and ways alone have exact first contacts, at the same fractions. So have screws that hardly turn, but for
+ * a part of the way far below what sweeps decide.
+ */
 static void check_exact(pir_pair *pair, pir_workspace *workspace, const mover *p, const pir_pair_input *input,
                         const pir_sweep_result *sweep, uint64_t number_of_case) {
     const pir_exact_motion *s = p->screw;
     const bool goes = s->way.x != 0 || s->way.y != 0 || s->way.z != 0;
-    if (fabs(s->degrees) > 360 || (goes && s->degrees != 0))
+    const bool hardly = fabs(s->degrees) < 1e-4 && fabs(s->degrees) > 0x1p-20;
+    if (fabs(s->degrees) > 360 || (goes && s->degrees != 0 && !hardly))
         return;
     pir_exact_impact exact;
     assert_int_equal(pir_pair_impact(pair, workspace, input, s, &exact), PIR_OK);
@@ -309,6 +313,11 @@ static pir_status sweep_by(pir_pair *pair, pir_workspace *workspace, const mover
                     : pir_pair_sweep(pair, workspace, &first, &second, budget, ret_sweep);
 }
 
+/* The same rotation. */
+static pir_quat other_sign(pir_quat q) {
+    return (pir_quat){-2 * q.x, -2 * q.y, -2 * q.z, -2 * q.w};
+}
+
 static pir_sweep_result sweep_of(const mover *p, const mover *q, uint32_t budget, uint64_t number_of_case) {
     pir_polytope *own = pir_polytope_retain((pir_polytope *)(uintptr_t)p->body),
                  *other = pir_polytope_retain((pir_polytope *)(uintptr_t)q->body);
@@ -318,7 +327,10 @@ static pir_sweep_result sweep_of(const mover *p, const mover *q, uint32_t budget
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
     pir_sweep_result sweep, again;
     assert_int_equal(sweep_by(pair, workspace, p, q, budget, &sweep), PIR_OK);
-    assert_int_equal(sweep_by(pair, workspace, p, q, budget, &again), PIR_OK);
+    mover same = *p;
+    for (int k = 0; k < 2; k++)
+        same.pose[k].rotation = other_sign(p->pose[k].rotation);
+    assert_int_equal(sweep_by(pair, workspace, &same, q, budget, &again), PIR_OK);
     assert_true(again.outcome == sweep.outcome && again.from == sweep.from && again.to == sweep.to &&
                 again.queries == sweep.queries);
     assert_true(sweep.queries <= (budget > 2 ? budget : budget == 0 ? PIR_SWEEP_BUDGET : 2));
@@ -422,7 +434,7 @@ static pir_exact_motion random_screw(test_random *random, mover *p, mover *q) {
         s.way.z = test_random_below(random, 2) == 0 ? 0 : s.way.z;
     }
     if (kind == 6)
-        s.degrees = ldexp(s.degrees, -30);
+        s.degrees = ldexp(s.degrees, -22);
     p->pose[1] = p->pose[0];
     q->pose[1] = q->pose[0];
     return s;
