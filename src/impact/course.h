@@ -26,6 +26,7 @@
 #include <pirouette/impact.h>
 
 #include "base/vec.h"
+#include "exact/vectors.h"
 #include "impact/cubic.h"
 #include "motion/quadratic.h"
 #include "polytope/polytope.h"
@@ -63,7 +64,8 @@ typedef struct pir_course_work {
 
 /* Exact numbers, made when a filter fails first; GMP's, for they are rationals on one scale. */
 typedef struct pir_course_integers {
-    mpz_t *point[2]; /* per body three a vertex */
+    pir_vectors points[2];
+    mpz_t *point[2]; /* views of these, per body three a vertex */
     mpz_t way[3], axis[3], square;
     int exponent; /* κ = k·2^exponent */
     mpz_t end;    /* of a screw: the k of its end, times 2^end_shift */

@@ -67,12 +67,41 @@ static void times_double(mpz_t dst, double x, const mpz_t by) {
         mpz_neg(dst, dst);
 }
 
-/* The points of a body, relative to the pivot, times the common denominator. The matrix is lost. */
-static void make_points(pir_course *course, int which, turned_body *body, const mpz_t common) {
+static uint32_t greater(uint32_t a, size_t b) {
+    return a > b ? a : (uint32_t)b;
+}
+
+/* Room for a body's points: each is a sum of four, three of them products. */
+static bool make_block(pir_course *course, int which, const turned_body *body, mpz_t *move) {
+    const pir_polytope *polytope = course->body[which];
+    uint32_t limbs = 0;
+    for (int i = 0; i < 9; i++)
+        limbs = greater(limbs, mpz_size(body->m[i]));
+    limbs += polytope->exact_vertex.stride;
+    for (int j = 0; j < 3; j++)
+        limbs = greater(limbs, mpz_size(move[j]));
+    return pir_vectors_init(&course->exact.points[which], course->allocator, polytope->vertex_count, limbs + 1);
+}
+
+/* Keeps a number as coordinate i of a body's points. */
+static void keep_point(pir_course *course, int which, size_t i, const mpz_t at) {
+    pir_vectors *block = &course->exact.points[which];
+    mp_limb_t *limb = block->limb + i * block->stride;
+    const size_t size = mpz_size(at);
+    if (size > 0)
+        mpn_copyi(limb, mpz_limbs_read(at), (mp_size_t)size);
+    mpz_roinit_n(course->exact.point[which][i], limb, mpz_sgn(at) * (mp_size_t)size);
+}
+
+/*
+ * The points of a body, relative to the pivot, times the common denominator. The matrix is lost. False when out of
+ * memory.
+ */
+static bool make_points(pir_course *course, int which, turned_body *body, const mpz_t common) {
     const pir_polytope *polytope = course->body[which];
     const pir_vec3 t = course->pose[which].translation, pivot = course->pivot;
-    mpz_t move[3], factor, view;
-    mpz_init(factor);
+    mpz_t move[3], factor, at, view;
+    mpz_inits(factor, at, NULL);
     mpz_divexact(factor, common, body->divisor);
     for (int i = 0; i < 9; i++)
         mpz_mul(body->m[i], body->m[i], factor);
@@ -82,16 +111,19 @@ static void make_points(pir_course *course, int which, turned_body *body, const 
         times_double(factor, pir_vec_component(pivot, j), common);
         mpz_sub(move[j], move[j], factor);
     }
-    for (uint32_t i = 0; i < polytope->vertex_count; i++) {
+    const bool made = make_block(course, which, body, move);
+    for (uint32_t i = 0; made && i < polytope->vertex_count; i++) {
         const pir_int3 v = pir_vertex_exact(polytope, i);
         for (int j = 0; j < 3; j++) {
-            mpz_ptr at = course->exact.point[which][3 * (size_t)i + (size_t)j];
             mpz_set(at, move[j]);
             for (int k = 0; k < 3; k++)
-                mpz_addmul(at, body->m[3 * j + k], viewed(view, &v.c[k]));
+                if (mpz_sgn(body->m[3 * j + k]) != 0)
+                    mpz_addmul(at, body->m[3 * j + k], viewed(view, &v.c[k]));
+            keep_point(course, which, 3 * (size_t)i + (size_t)j, at);
         }
     }
-    mpz_clears(move[0], move[1], move[2], factor, NULL);
+    mpz_clears(move[0], move[1], move[2], factor, at, NULL);
+    return made;
 }
 
 static void make_axis(pir_course *course) {
@@ -153,18 +185,12 @@ static bool make_room(pir_course *course) {
     return exact->limbs != NULL;
 }
 
-static void free_points(pir_course *course, int which) {
-    const size_t count = 3 * (size_t)course->body[which]->vertex_count;
-    mpz_t *point = course->exact.point[which];
-    for (size_t i = 0; point != NULL && i < count; i++)
-        mpz_clear(point[i]);
-    PIR_FREE(course->allocator, point, count);
-}
-
 static void free_integers(pir_course *course) {
     pir_course_integers *exact = &course->exact;
-    for (int which = 0; which < 2; which++)
-        free_points(course, which);
+    for (int which = 0; which < 2; which++) {
+        pir_vectors_finish(&exact->points[which], course->allocator);
+        PIR_FREE(course->allocator, exact->point[which], 3 * (size_t)course->body[which]->vertex_count);
+    }
     for (int k = 0; k < 3; k++)
         mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->other[k], NULL);
     mpz_clears(exact->square, exact->end, NULL);
@@ -189,8 +215,8 @@ static int lowest_bit(const pir_course *course) {
     return low;
 }
 
-/* Both bodies and the way, on their common denominator. */
-static void make_scaled(pir_course *course) {
+/* Both bodies and the way, on their common denominator. False when out of memory. */
+static bool make_scaled(pir_course *course) {
     turned_body body[2];
     mpz_t common;
     mpz_init_set_ui(common, 1);
@@ -199,25 +225,25 @@ static void make_scaled(pir_course *course) {
         turned_body_init(&body[which], course->body[which], course->pose[which].rotation);
         mpz_lcm(common, common, body[which].divisor);
     }
+    bool made = true;
     for (int which = 0; which < 2; which++) {
-        make_points(course, which, &body[which], common);
+        made = made && make_points(course, which, &body[which], common);
         turned_body_clear(&body[which]);
     }
     for (int k = 0; k < 3; k++)
         times_double(course->exact.way[k], pir_vec_component(course->way, k), common);
     mpz_clear(common);
+    return made;
 }
 
 pir_status pir_course_integers_make(pir_course *course) {
     if (course->has_integers)
         return PIR_OK;
     pir_course_integers *exact = &course->exact;
-    const size_t count[2] = {3 * (size_t)course->body[0]->vertex_count, 3 * (size_t)course->body[1]->vertex_count};
     exact->limbs = NULL;
     for (int which = 0; which < 2; which++) {
-        exact->point[which] = PIR_NEW(course->allocator, mpz_t, count[which]);
-        for (size_t i = 0; exact->point[which] != NULL && i < count[which]; i++)
-            mpz_init(exact->point[which][i]);
+        exact->points[which] = (pir_vectors){0};
+        exact->point[which] = PIR_NEW(course->allocator, mpz_t, 3 * (size_t)course->body[which]->vertex_count);
     }
     for (int k = 0; k < 3; k++)
         mpz_inits(exact->way[k], exact->root[k], exact->other[k], NULL);
@@ -230,11 +256,7 @@ pir_status pir_course_integers_make(pir_course *course) {
     pir_cubic_root_init(&exact->cubic_root);
     if (course->screws)
         make_end(course);
-    bool made = exact->point[0] != NULL && exact->point[1] != NULL;
-    if (made) {
-        make_scaled(course);
-        made = make_room(course);
-    }
+    const bool made = exact->point[0] != NULL && exact->point[1] != NULL && make_scaled(course) && make_room(course);
     if (!made)
         free_integers(course);
     course->has_integers = made;
