@@ -72,7 +72,8 @@ typedef struct pir_course_integers {
     mp_bitcnt_t end_shift;
     pir_cubic cubic;
     pir_cubic_root cubic_root;
-    mpz_t root[3], other[3];
+    mpz_t root[3], best[3], other[3];
+    bool has_best; /* `best` is the quadratic of the first exit found so far */
     pir_course_work work;
     mp_limb_t *limbs;
     uint32_t double_limbs; /* of a double as a quadratic */

@@ -192,7 +192,7 @@ static void free_integers(pir_course *course) {
         PIR_FREE(course->allocator, exact->point[which], 3 * (size_t)course->body[which]->vertex_count);
     }
     for (int k = 0; k < 3; k++)
-        mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->other[k], NULL);
+        mpz_clears(exact->way[k], exact->axis[k], exact->root[k], exact->best[k], exact->other[k], NULL);
     mpz_clears(exact->square, exact->end, NULL);
     mpz_t *work = (mpz_t *)&exact->work;
     for (size_t i = 0; i < WORK_NUMBERS; i++)
@@ -246,7 +246,7 @@ pir_status pir_course_integers_make(pir_course *course) {
         exact->point[which] = PIR_NEW(course->allocator, mpz_t, 3 * (size_t)course->body[which]->vertex_count);
     }
     for (int k = 0; k < 3; k++)
-        mpz_inits(exact->way[k], exact->root[k], exact->other[k], NULL);
+        mpz_inits(exact->way[k], exact->root[k], exact->best[k], exact->other[k], NULL);
     mpz_t *work = (mpz_t *)&exact->work;
     for (size_t i = 0; i < WORK_NUMBERS; i++)
         mpz_init(work[i]);

@@ -172,12 +172,11 @@ static void exit_exactly(pir_impact_search *search, const pir_moment *at, pir_mo
     int order = 1;
     const uint32_t mark = scratch->used;
     if (best->kind == PIR_MOMENT_ROOT) {
-        mpz_t first[3];
-        mpz_inits(first[0], first[1], first[2], NULL);
-        pir_course_exact(course, &best->root, first);
-        const pir_quadratic other = pir_course_view(first);
+        if (!course->exact.has_best)
+            pir_course_exact(course, &best->root, course->exact.best);
+        course->exact.has_best = true;
+        const pir_quadratic other = pir_course_view(course->exact.best);
         order = pir_quadratic_compare(&view, &other, scratch);
-        mpz_clears(first[0], first[1], first[2], NULL);
     } else if (isfinite(search->course.end_kappa)) {
         const pir_quadratic other = end_quadratic(search);
         order = pir_quadratic_compare(&view, &other, scratch) >= 0;
@@ -187,6 +186,9 @@ static void exit_exactly(pir_impact_search *search, const pir_moment *at, pir_mo
         *best = *at;
         best->phi = phi_of(course, &view, scratch);
         best->slack = 0x1p-46;
+        for (int k = 0; k < 3; k++)
+            mpz_swap(course->exact.best[k], course->exact.other[k]);
+        course->exact.has_best = true;
     }
 }
 
@@ -197,14 +199,17 @@ static void take_exit(pir_impact_search *search, const pir_course_form *form, co
     const int found = exit_by_filter(search, form, &at);
     if (found == 0 || (found == 1 && at.phi - at.slack > best->phi + best->slack))
         return;
-    if (found == 1 && at.phi + at.slack < best->phi - best->slack)
+    if (found == 1 && at.phi + at.slack < best->phi - best->slack) {
         *best = at;
-    else
+        search->course.exact.has_best = false;
+    } else {
         exit_exactly(search, &at, best);
+    }
 }
 
 pir_moment pir_search_exit(pir_impact_search *search, const pir_condition *plane) {
     pir_moment best = search->end;
+    search->course.exact.has_best = false;
     const uint32_t count = pir_plane_count(search, plane);
     const bool is_facet = plane->kind != PIR_EDGES;
     const pir_plane_rows rows = is_facet ? pir_course_rows(&search->course, plane) : (pir_plane_rows){0};
