@@ -7,17 +7,24 @@ Usage: motions.py FILE   the pieces in FILE are taken as the bodies, which are c
 Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on plan.py and turns.py beside
 it.
 
-The argument: boxes cover all rotations. At every rotation of a box the robot has the box's inner pieces, so
-translations that their sums with obstacles block are blocked. The tree of the box divides the translations: parts are
-blocked by one sum, or of the start's side, or of the other. No part of one side shares a polygon with one of the other
-of its box, nor a point with one of a box that shares a rotation. Free poses are an open set, so a path could be moved
-to go through polygons alone: it never leaves the side of its start. Its end is on the other.
+The argument: boxes cover all rotations. Each box has sums, of a piece P of the robot and a piece O of the obstacles
+each: polytopes of translations at which P meets O at every rotation of the box, so they are blocked. The tree of the
+box divides the translations: parts are blocked by one sum, or of the start's side, or of the other. No part of one side
+shares a polygon with one of the other of its box, nor a point with one of a box that shares a rotation. Free poses are
+an open set, so a path could be moved to go through polygons alone: it never leaves the side of its start. Its end is on
+the other.
 
 A box is four intervals, in 2^-20, of quaternions x, y, z, w, of which one is 1 alone: a quaternion divided by its
 largest component is in one, or its negative is. A box is the hull of its corners q. With B(p, q)v the polar form of
-|q|^2 R(q)v, a turned normal times |q|^2 = sum of a_i a_k (q_i.q_k) is the sum of a_i a_k B(q_i, q_k)n with the same a_i
->= 0. So a point x with B(q_i, q_k)n.x <= (q_i.q_k) d for all pairs of corners is in the half-space n.x <= d at every
-rotation.
+|q|^2 R(q)v, and q = sum of a_i q_i, |q|^2 R(q)v is the sum of a_i a_k B(q_i, q_k)v, and |q|^2 that of a_i a_k q_i.q_k,
+with a_i >= 0. So what is linear in R(q)v is at most 0 in the box where it is so for B(q_i, q_k)v / (q_i.q_k) of all
+pairs of corners.
+
+P at x meets O where x is in S(q) = O - R(q)P. Half-spaces of S are those with normals N of facets of O, of facets of
+-R(q)P, and e x R(q)f for edges e of O and f of P, in both directions. It is in one where N.(x - o + R(q)p) <= 0 for
+some o in O and p in P. The last ones count only where N is between the normals of both facets at e, and of both at f.
+So they hold as well where both half-spaces of O at e do with one p (the same o on e serves both), or both of P at f
+with one o. And where all half-spaces of P do with one o, that is in P throughout.
 """
 import sys
 from fractions import Fraction
@@ -31,19 +38,16 @@ ONE = 1 << 20
 
 
 class Whole:
-    """A convex polytope in integers, that of a piece times a number: points, and directions of normals and edges."""
+    """A convex polytope in integers, a piece times a number: points, facets (n, d), edges with facets beside."""
 
-    def __init__(self, piece, scale, sign):
-        self.points = [tuple(int(sign * scale * x) for x in p) for p in piece.points]
-        self.edges = {reduced([int(scale * x) for x in sub(piece.points[b], piece.points[a])])
-                      for facet in piece.facets for a, b in zip(facet, facet[1:] + facet[:1])}
-        self.normals = {reduced([int(sign * scale ** 2 * x) for x in n]) for n, _ in piece.planes}
-
-    def planes_of_sum(self, other):
-        """Half-spaces (n, d) whose intersection is the sum: normals of facets and of pairs of edges have all facets."""
-        crossed = [cross(a, b) for a in self.edges for b in other.edges]
-        normals = self.normals | other.normals | {reduced(n) for n in crossed if any(n)}
-        return [(n, sum(max(dot(n, p) for p in whole.points) for whole in (self, other))) for n in normals]
+    def __init__(self, piece, scale):
+        self.points = [tuple(int(scale * x) for x in p) for p in piece.points]
+        first = [[self.points[i] for i in facet[:3]] for facet in piece.facets]
+        normals = [reduced(cross(sub(b, a), sub(c, a))) for a, b, c in first]
+        self.planes = [(n, dot(n, facet[0])) for n, facet in zip(normals, first)]
+        beside = {side: i for i, f in enumerate(piece.facets) for side in zip(f, f[1:] + f[:1])}
+        self.edges = [(self.points[a], sub(self.points[b], self.points[a]), (i, beside[b, a]))
+                      for (a, b), i in beside.items() if a < b]
 
 
 def reduced(n):
@@ -67,8 +71,63 @@ def are_apart(a, b):
                 for n, d in own.planes))
 
 
+class Pair:
+    """A piece of the robot and one of the obstacles over a box; an o for a point x is told as (m (x - o), m), m > 0."""
+
+    def __init__(self, robot, obstacle, forms):
+        self.robot, self.obstacle, self.forms, self.most = robot, obstacle, forms, {}
+        self.back = [[tuple(-y for y in form(p, q, n)) for p, q, _ in forms] for n, _ in robot.planes]
+        count = len(robot.points)
+        self.within = robot.points + [tuple(Fraction(sum(c), count) for c in zip(*robot.points))]
+        self.within += [tuple(y + Fraction(z, 2) for y, z in zip(a, way)) for a, way, _ in robot.edges]
+
+    def stays(self, facet, i, x):
+        """Whether a point of the robot is in the half-space of a facet of the obstacle throughout."""
+        n, d = self.obstacle.planes[facet]
+        if (facet, i) not in self.most:
+            self.most[facet, i] = max(Fraction(dot(n, form(p, q, self.within[i]))) / w for p, q, w in self.forms)
+        return dot(n, x) + self.most[facet, i] <= d
+
+    def covers(self, facet, o):
+        """Whether o is in the half-space of a facet of the robot throughout."""
+        (way, m), d = o, self.robot.planes[facet][1]
+        return all(dot(n, way) <= w * d * m for n, (_, _, w) in zip(self.back[facet], self.forms))
+
+    def crosses(self, e, f, o, p):
+        """Whether N of two edges serves with o and p."""
+        (way, m), of_p = o, cross(f, p)
+        return all(dot(cross(e, form(a, b, f)), way) + m * dot(e, form(a, b, of_p)) <= 0 for a, b, _ in self.forms)
+
+    def check(self, x):
+        """The pieces meet at x throughout."""
+        points, ways = range(len(self.within)), [(sub(x, o), 1) for o in self.obstacle.points]
+        for a, way, _ in self.obstacle.edges:
+            size, part = dot(way, way), dot(sub(x, a), way)
+            if 0 < part < size:  # the nearest point of the edge
+                ways.append((tuple(size * (y - z) - part * v for y, z, v in zip(x, a, way)), size))
+        for n, d in self.obstacle.planes:
+            size, above = dot(n, n), dot(n, x) - d
+            at = tuple(size * y - above * z for y, z in zip(x, n))  # the nearest point of the plane, times size
+            if all(dot(m, at) <= size * most for m, most in self.obstacle.planes):
+                ways.append((tuple(above * z for z in n), size))
+        ways.reverse()
+        if any(all(self.covers(f, o) for f in range(len(self.robot.planes))) for o in ways):
+            return
+        for facets, some, holds in ((range(len(self.obstacle.planes)), points, lambda f, i: self.stays(f, i, x)),
+                                    (range(len(self.robot.planes)), ways, self.covers)):
+            need(all(any(holds(f, i) for i in some) for f in facets), "a sum has a point where pieces may be apart")
+        open_e = [edge for edge in self.obstacle.edges
+                  if not any(all(self.stays(f, i, x) for f in edge[2]) for i in points)]
+        open_f = [edge for edge in self.robot.edges if not any(all(self.covers(f, o) for f in edge[2]) for o in ways)]
+        for a, e, _ in open_e:
+            for b, f, _ in open_f:
+                tries = [((sub(x, a), 1), b)] + [(o, p) for o in ways for p in self.robot.points]
+                for way in (e, sub((0, 0, 0), e)):
+                    need(any(self.crosses(way, f, o, p) for o, p in tries), "a point of a sum is outside at an edge")
+
+
 class Box(turns.Arc):
-    """One box of rotations: its inner pieces, whose sums are Plan's, and the leaves of its tree."""
+    """One box of rotations: its sums, and the leaves of its tree."""
 
     def __init__(self, whole, told):  # pylint: disable=super-init-not-called
         self.told, self.open = told, False
@@ -77,31 +136,26 @@ class Box(turns.Arc):
         need((ONE, ONE) in self.bounds, "a box is in no chart")
         corners = sorted(set(product(*self.bounds)))
         pairs = list(combinations_with_replacement(corners, 2))
-        self.forms = [(p, q, sum(a * b for a, b in zip(p, q))) for p, q in pairs]
-        need(all(w > 0 for _, _, w in self.forms), "a box is too wide")
-        inner = [Piece([vector(p) for p in piece["points"]], piece["facets"]) for piece in told["inner"]]
-        for piece, own in zip(told["inner"], inner):
-            need(0 <= piece["body"] < len(whole.robot), "no such piece of the robot")
-            for n, d in whole.robot[piece["body"]].planes:
-                for p, q, w in self.forms:
-                    m = form(p, q, n)
-                    need(all(dot(m, x) <= w * d for x in own.points), "an inner piece is not within the robot")
-        points = [p for piece in inner + whole.obstacles for p in piece.points]
-        self.scale, self.sums = lcm(*(x.denominator for p in points for x in p)), {}
-        self.inner, self.obstacles = ([Whole(piece, self.scale, sign) for piece in pieces]
-                                      for pieces, sign in ((inner, -1), (whole.obstacles, 1)))
+        forms = [(p, q, sum(a * b for a, b in zip(p, q))) for p, q in pairs]
+        need(all(w > 0 for _, _, w in forms), "a box is too wide")
+        self.sums = {}
+        for piece in told["sums"]:
+            own = Piece([vector(p) for p in piece["points"]], piece["facets"])
+            k, l = divmod(piece["body"], len(whole.obstacles))
+            need(0 <= k < len(whole.robot), "no such piece of the robot")
+            bodies = own, whole.robot[k], whole.obstacles[l]
+            scale = lcm(*(x.denominator for body in bodies for p in body.points for x in p))
+            pair = Pair(Whole(whole.robot[k], scale), Whole(whole.obstacles[l], scale), forms)
+            for p in own.points:
+                pair.check(tuple(int(scale * x) for x in p))
+            self.sums[k, l] = own.planes
         self.leaves = self.walk(whole)
 
     def check_blocked(self, cell, node, part):
         """A sum has the part."""
-        k, l = part[1:]
-        need(0 <= k < len(self.inner) and 0 <= l < len(self.obstacles), "no such piece")
-        if (k, l) not in self.sums:
-            self.sums[k, l] = self.inner[k].planes_of_sum(self.obstacles[l])
-        for p, _ in cell.vertices:
-            w = lcm(*(x.denominator for x in p))
-            x = tuple(int(y * w) * self.scale for y in p)
-            need(all(dot(n, x) <= d * w for n, d in self.sums[k, l]), f"part {node}: not within the sum")
+        need((part[1], part[2]) in self.sums, "no such sum")
+        need(all(dot(n, p) <= d for n, d in self.sums[part[1], part[2]] for p, _ in cell.vertices),
+             f"part {node}: not within the sum")
 
     def has(self, turn):
         """Whether a rotation is in the box."""

@@ -280,10 +280,11 @@ typedef struct pir_rigid_plan_info {
  * options   NULL for the defaults.
  * ret_plan  to be freed with pir_rigid_plan_destroy; also where the answer is unknown.
  *
- * Rotations are divided into boxes, finer where the question needs it. What pieces within P at every rotation of a box
- * block is blocked, so where free cells of all boxes leave the ends apart there is no path. A path is made of exact
- * translations at single rotations, and of turns that pieces around P over the turn prove to be free. An answer other
- * than unknown is proven, and of two questions that only differ in their budgets no two are answered otherwise.
+ * Rotations are divided into boxes, finer where the question needs it. Translations at which two pieces meet at
+ * every rotation of a box are blocked, so where free cells of all boxes leave the ends apart there is no path. A path
+ * is made of exact translations at single rotations, and of turns that pieces around P over the turn prove to be free.
+ * An answer other than unknown is proven, and of two questions that only differ in their budgets no two are answered
+ * otherwise.
  *
  * Cost: for each box that of pir_path_plan_translate twice. Where a gap is less than a passage needs by a part ε,
  * boxes of size ε are needed where P nearly fits: in general O(ε^-3) of them.

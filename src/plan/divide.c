@@ -265,13 +265,33 @@ static void look_at(struct divider *d, struct task *task) {
     set_free(d, task);
 }
 
+/* The numbers of sums from one on. */
+static uint32_t *list_sums(pir_plan_space *space, const pir_plan_sums *sums, uint32_t first) {
+    uint32_t *list = pir_plan_new(space, sums->count - first, sizeof *list);
+    for (uint32_t i = first; i < sums->count && list; i++)
+        list[i - first] = i;
+    return list;
+}
+
+static void run(struct divider *d) {
+    pir_plan_space *space = d->space;
+    while (d->tasks > 0) {
+        struct task task = d->task[--d->tasks];
+        if (space->status == PIR_OK)
+            look_at(d, &task);
+        free_task(d, &task);
+    }
+    pir_plan_free(space, d->task, d->task_room, sizeof *d->task);
+    pir_plan_free(space, d->score, d->score_room, sizeof *d->score);
+    pir_plan_free(space, d->far, d->far_room, sizeof *d->far);
+    pir_plan_free(space, d->order, d->order_room, sizeof *d->order);
+}
+
 void pir_plan_divide(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_t most, pir_plan_tree *tree) {
     struct divider d = {.cutter = cutter, .space = cutter->space, .sums = sums, .tree = tree, .most = most};
     pir_plan_space *space = cutter->space;
     pir_plan_cell box;
-    uint32_t *all = pir_plan_new(space, sums->count, sizeof *all);
-    for (uint32_t i = 0; i < sums->count && all; i++)
-        all[i] = i;
+    uint32_t *all = list_sums(space, sums, 0);
     pir_plan_cell_box(cutter, tree->low, tree->high, &box);
     const uint32_t root = add_node(&d);
     if (space->status == PIR_OK)
@@ -279,16 +299,28 @@ void pir_plan_divide(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_
     else
         pir_plan_cell_free(space, &box);
     pir_plan_free(space, all, sums->count, sizeof *all);
-    while (d.tasks > 0) {
-        struct task task = d.task[--d.tasks];
-        if (space->status == PIR_OK)
-            look_at(&d, &task);
-        free_task(&d, &task);
+    run(&d);
+}
+
+void pir_plan_divide_more(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_t first, uint32_t most,
+                          pir_plan_tree *tree) {
+    struct divider d = {.cutter = cutter, .space = cutter->space, .sums = sums, .tree = tree, .most = most};
+    pir_plan_space *space = cutter->space;
+    pir_plan_cell *cell = tree->cell;
+    const uint32_t room = tree->cell_room, nodes = tree->node_count;
+    uint32_t *more = list_sums(space, sums, first);
+    tree->cell = NULL;
+    tree->cell_count = tree->cell_room = 0;
+    for (uint32_t i = 0; i < nodes; i++) {
+        pir_plan_node *node = &tree->node[i];
+        if (node->part != PIR_PLAN_FREE)
+            continue;
+        node->part = PIR_PLAN_OPEN;
+        push(&d, i, &cell[node->by], more, sums->count - first);
     }
-    pir_plan_free(space, d.task, d.task_room, sizeof *d.task);
-    pir_plan_free(space, d.score, d.score_room, sizeof *d.score);
-    pir_plan_free(space, d.far, d.far_room, sizeof *d.far);
-    pir_plan_free(space, d.order, d.order_room, sizeof *d.order);
+    pir_plan_free(space, cell, room, sizeof *cell);
+    pir_plan_free(space, more, sums->count - first, sizeof *more);
+    run(&d);
 }
 
 void pir_plan_tree_finish(pir_plan_space *space, pir_plan_tree *tree) {

@@ -39,6 +39,10 @@ typedef struct pir_plan_tree {
  * needed. */
 void pir_plan_divide(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_t most, pir_plan_tree *tree);
 
+/* Divides free parts by sums from one on, which are new. */
+void pir_plan_divide_more(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_t first, uint32_t most,
+                          pir_plan_tree *tree);
+
 void pir_plan_tree_finish(pir_plan_space *space, pir_plan_tree *tree);
 
 #endif

@@ -111,6 +111,30 @@ static pir_status add_mesh(pir_plan_space *space, const pir_mesh *mesh, pir_plan
     return space->status;
 }
 
+/* Has room for one more sum, which is then made by a mesh. */
+static pir_status open_sum(pir_plan_space *space, uint32_t robot, uint32_t obstacle, pir_plan_sums *sums) {
+    if (!pir_plan_grow(space, (void **)&sums->sum, &sums->room, sums->count + 1, sizeof *sums->sum))
+        return space->status;
+    sums->sum[sums->count] = (pir_plan_sum){.robot = robot,
+                                            .obstacle = obstacle,
+                                            .low = {INFINITY, INFINITY, INFINITY},
+                                            .high = {-INFINITY, -INFINITY, -INFINITY}};
+    return PIR_OK;
+}
+
+pir_status pir_plan_sums_add(pir_plan_space *space, const pir_polytope *made, uint32_t robot, uint32_t obstacle,
+                             pir_plan_sums *sums) {
+    pir_mesh *mesh = NULL;
+    pir_status status = open_sum(space, robot, obstacle, sums);
+    if (status == PIR_OK)
+        status = pir_mesh_from_polytope(made, &mesh);
+    if (status == PIR_OK)
+        status = add_mesh(space, mesh, sums, &sums->sum[sums->count]);
+    sums->count += status == PIR_OK;
+    pir_mesh_destroy(mesh);
+    return status;
+}
+
 static pir_status add_sum(pir_plan_space *space, pir_polytope *p, pir_polytope *q, pir_quat rotation,
                           pir_plan_sums *sums) {
     pir_sum_options options = pir_sum_options_default();
@@ -123,9 +147,8 @@ static pir_status add_sum(pir_plan_space *space, pir_polytope *p, pir_polytope *
         status = pir_sum_create(back, q, rotation, &options, &made);
     if (status == PIR_OK)
         status = pir_sum_mesh(made, PIR_EXACT, &mesh);
-    pir_plan_sum *sum = &sums->sum[sums->count];
     if (status == PIR_OK)
-        status = add_mesh(space, mesh, sums, sum);
+        status = add_mesh(space, mesh, sums, &sums->sum[sums->count]);
     sums->count += status == PIR_OK;
     pir_mesh_destroy(mesh);
     pir_sum_destroy(made);
@@ -135,20 +158,11 @@ static pir_status add_sum(pir_plan_space *space, pir_polytope *p, pir_polytope *
 
 pir_status pir_plan_sums_make(pir_plan_space *space, const pir_plan_pieces *robot, const pir_plan_pieces *obstacles,
                               pir_quat rotation, pir_plan_sums *sums) {
-    const uint64_t pairs = (uint64_t)robot->count * obstacles->count;
-    if (pairs > UINT32_MAX / 4)
-        return PIR_ERR_LIMIT;
-    if (!pir_plan_grow(space, (void **)&sums->sum, &sums->room, (uint32_t)pairs, sizeof *sums->sum))
-        return space->status;
     for (uint32_t l = 0; l < obstacles->count; l++)
         for (uint32_t k = 0; k < robot->count; k++) {
-            pir_plan_sum *sum = &sums->sum[sums->count];
-            *sum = (pir_plan_sum){.robot = k, .obstacle = l};
-            for (int i = 0; i < 3; i++) {
-                sum->low[i] = INFINITY;
-                sum->high[i] = -INFINITY;
-            }
-            const pir_status status = add_sum(space, robot->at[k], obstacles->at[l], rotation, sums);
+            pir_status status = open_sum(space, k, l, sums);
+            if (status == PIR_OK)
+                status = add_sum(space, robot->at[k], obstacles->at[l], rotation, sums);
             if (status != PIR_OK)
                 return status;
         }

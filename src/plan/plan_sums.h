@@ -40,6 +40,9 @@ void pir_plan_pieces_finish(pir_plan_space *space, pir_plan_pieces *pieces);
 /* Makes the sums of all pairs of pieces. */
 pir_status pir_plan_sums_make(pir_plan_space *space, const pir_plan_pieces *robot, const pir_plan_pieces *obstacles,
                               pir_quat rotation, pir_plan_sums *sums);
+/* Adds a polytope as that of two pieces. */
+pir_status pir_plan_sums_add(pir_plan_space *space, const pir_polytope *made, uint32_t robot, uint32_t obstacle,
+                             pir_plan_sums *sums);
 void pir_plan_sums_finish(pir_plan_space *space, pir_plan_sums *sums);
 
 /* The first sum that has a point, in its inside where sums are open; none. */

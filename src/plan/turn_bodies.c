@@ -11,8 +11,6 @@
 #define ROOM       0x1p-14 /* of the size */
 #define EDGE_PARTS 2
 
-#define MOST_FORMS (PIR_PLAN_TURNS * (PIR_PLAN_TURNS + 1) / 2)
-
 static double dot(pir_vec3 a, pir_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -29,12 +27,6 @@ static double length_of(pir_vec3 a) {
     return sqrt(dot(a, a));
 }
 
-/* The rows of B(p, q) / p·q for each two of the quaternions, then those of the middle one. */
-struct forms {
-    pir_vec3 row[MOST_FORMS + 1][3];
-    int count;
-};
-
 static void set_form(pir_quat p, pir_quat q, pir_vec3 row[3]) {
     const double ww = p.w * q.w, xx = p.x * q.x, yy = p.y * q.y, zz = p.z * q.z, scale = 1 / (ww + xx + yy + zz);
     const double xy = p.x * q.y + p.y * q.x, yz = p.y * q.z + p.z * q.y, zx = p.z * q.x + p.x * q.z;
@@ -44,8 +36,8 @@ static void set_form(pir_quat p, pir_quat q, pir_vec3 row[3]) {
     row[2] = times(scale, (pir_vec3){zx - wy, yz + wx, ww - xx - yy + zz});
 }
 
-static struct forms forms_of(const pir_plan_turns *turns) {
-    struct forms forms = {.count = 0};
+pir_turn_forms pir_turn_forms_of(const pir_plan_turns *turns) {
+    pir_turn_forms forms = {.count = 0};
     pir_quat middle = {0, 0, 0, 0};
     for (int i = 0; i < turns->count; i++) {
         const pir_quat q = turns->q[i];
@@ -57,7 +49,7 @@ static struct forms forms_of(const pir_plan_turns *turns) {
     return forms;
 }
 
-static pir_vec3 turned(const struct forms *forms, int which, pir_vec3 v) {
+static pir_vec3 turned(const pir_turn_forms *forms, int which, pir_vec3 v) {
     const pir_vec3 *row = forms->row[which];
     return (pir_vec3){dot(row[0], v), dot(row[1], v), dot(row[2], v)};
 }
@@ -91,7 +83,8 @@ struct halves {
     size_t count;
 };
 
-static void list_halves(const pir_polytope *piece, const struct forms *forms, uint32_t *corner, struct halves *halves) {
+static void list_halves(const pir_polytope *piece, const pir_turn_forms *forms, uint32_t *corner,
+                        struct halves *halves) {
     for (uint32_t i = 0; i < pir_polytope_facet_count(piece); i++) {
         const pir_vec3 n = pir_polytope_normal(piece, i);
         pir_polytope_facet(piece, i, corner);
@@ -106,7 +99,7 @@ static void list_halves(const pir_polytope *piece, const struct forms *forms, ui
 }
 
 /* Corners, and points of edges between them, at the middle rotation. */
-static size_t list_points(const pir_polytope *piece, const struct forms *forms, uint32_t *corner, pir_vec3 *x) {
+static size_t list_points(const pir_polytope *piece, const pir_turn_forms *forms, uint32_t *corner, pir_vec3 *x) {
     const int middle = forms->count;
     size_t count = 0;
     for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++)
@@ -141,7 +134,7 @@ static pir_vec3 rounded(pir_vec3 x, double grid) {
 }
 
 static pir_status piece_within(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_inner) {
-    const struct forms forms = forms_of(turns);
+    const pir_turn_forms forms = pir_turn_forms_of(turns);
     const double size = size_of(piece), grid = ldexp(1, ilogb(size) - GRID_BITS);
     const pir_vec3 middle = turned(&forms, forms.count, middle_of(piece));
     const size_t most = (size_t)forms.count * pir_polytope_facet_count(piece);
@@ -186,7 +179,7 @@ static double thickness_of(const pir_polytope *piece, uint32_t *corner) {
 
 static pir_status piece_around(const pir_polytope *piece, const pir_plan_turns *turns, pir_polytope **ret_outer) {
     const uint32_t vertices = pir_polytope_vertex_count(piece);
-    const struct forms forms = forms_of(turns);
+    const pir_turn_forms forms = pir_turn_forms_of(turns);
     const size_t count = (size_t)forms.count * vertices;
     pir_vec3 *x = calloc(count, sizeof *x);
     uint32_t *corner = calloc(vertices, sizeof *corner);

@@ -25,12 +25,21 @@
 #include "plan/plan_sums.h"
 
 #define PIR_PLAN_TURNS 8
+#define PIR_TURN_FORMS (PIR_PLAN_TURNS * (PIR_PLAN_TURNS + 1) / 2)
 
 /* Quaternions as above; one stands for its rotation alone. */
 typedef struct pir_plan_turns {
     pir_quat q[PIR_PLAN_TURNS];
     int count;
 } pir_plan_turns;
+
+/* The rows of B(p, q) / p·q for each two of the quaternions, then those of the middle one. */
+typedef struct pir_turn_forms {
+    pir_vec3 row[PIR_TURN_FORMS + 1][3];
+    int count;
+} pir_turn_forms;
+
+pir_turn_forms pir_turn_forms_of(const pir_plan_turns *turns);
 
 /*
  * The inner or outer pieces of a robot's, from malloc; `body` is which piece each is of. There may be fewer inner ones.

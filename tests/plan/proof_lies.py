@@ -14,6 +14,11 @@ import tempfile
 from fractions import Fraction
 
 
+def polytopes(part):
+    """What a part has that blocks: inner pieces, or sums."""
+    return part["inner" if "inner" in part else "sums"]
+
+
 def leaf(told, parts, random_, kind):
     part = random_.choice([p for p in told[parts] if any(node[0] == kind for node in p["tree"])])
     return random_.choice([node for node in part["tree"] if node[0] == kind])
@@ -36,13 +41,13 @@ def goal_at_start(told, parts, random_):
 
 
 def grown(told, parts, random_):
-    """An inner piece is larger than what it is in."""
-    piece = random_.choice([p for part in told[parts] for p in part["inner"]])
+    """A polytope is larger than what it is in."""
+    piece = random_.choice([p for part in told[parts] for p in polytopes(part)])
     piece["points"] = [[str(Fraction(x) * Fraction(11, 10)) for x in p] for p in piece["points"]]
 
 
 def smaller_robot(told, parts, random_):
-    """Another robot, in which the inner pieces are not."""
+    """Another robot, which blocks less."""
     for piece in told["robot"]:
         piece["points"] = [[str(Fraction(x) / 2) for x in p] for p in piece["points"]]
 
@@ -57,7 +62,7 @@ def part_left_out(told, parts, random_):
 
 
 def no_inner(told, parts, random_):
-    random_.choice(told[parts])["inner"] = []
+    polytopes(random_.choice(told[parts])).clear()
 
 
 def loop(told, parts, random_):

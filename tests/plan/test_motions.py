@@ -23,6 +23,20 @@ def wider_box(told, parts, random_):
     box["box"] = [[low, high] if low == high else [-2 ** 20, 2 ** 20] for low, high in box["box"]]
 
 
+def other_pair(told, parts, random_):
+    """A sum is told to be of another obstacle."""
+    piece = random_.choice([p for box in told[parts] for p in box["sums"]])
+    piece["body"] = (piece["body"] + random_.randrange(1, len(told["obstacles"]))) % len(told["obstacles"])
+
+
+def point_moved(told, parts, random_):
+    """A corner of a sum is farther out."""
+    piece = random_.choice([p for box in told[parts] for p in box["sums"]])
+    i = random_.randrange(len(piece["points"]))
+    middle = [sum(Fraction(p[k]) for p in piece["points"]) / len(piece["points"]) for k in range(3)]
+    piece["points"][i] = [str(2 * Fraction(x) - m) for x, m in zip(piece["points"][i], middle)]
+
+
 def check_form(motions, random_):
     """The polar form of a quaternion with itself is its rotation, and it is linear and symmetric."""
     from plan import turned
@@ -41,7 +55,7 @@ def main(program, folder):
     sys.path.insert(0, folder)
     import motions
     check_form(motions, random.Random(1))
-    proof_lies.hold(program, motions.main, motions.Motions, "boxes", [box_twice, wider_box])
+    proof_lies.hold(program, motions.main, motions.Motions, "boxes", [box_twice, wider_box, other_pair, point_moved])
 
 
 if __name__ == "__main__":

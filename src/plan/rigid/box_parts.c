@@ -8,28 +8,50 @@
 #include "base/memory.h"
 #include "plan/rigid/point_sets.h"
 
-pir_status pir_box_division_make(const pir_rigid_question *question, const pir_plan_pieces *robot, bool with_doors,
-                                 pir_box_division *division) {
+pir_status pir_box_division_open(const pir_rigid_question *question, pir_box_division *division) {
     const pir_allocator allocator = pir_allocator_or_default(NULL);
-    const pir_quat none = {0, 0, 0, 1};
     memset(division, 0, sizeof *division);
     pir_plan_space_init(&division->space, &allocator, question->memory);
     division->cutter.space = &division->space;
     memcpy(division->tree.low, question->low, sizeof question->low);
     memcpy(division->tree.high, question->high, sizeof question->high);
-    pir_status status = division->space.status;
-    if (status == PIR_OK && robot->count > 0)
+    return division->space.status;
+}
+
+pir_status pir_box_division_add(const pir_rigid_question *question, const pir_plan_pieces *made, uint32_t first,
+                                pir_box_division *division) {
+    const uint32_t obstacles = question->obstacles->count, old = division->sums.count;
+    for (uint32_t i = first; i < made->count; i++) {
+        const pir_status status = pir_plan_sums_add(&division->space, made->at[i], made->body[i] / obstacles,
+                                                    made->body[i] % obstacles, &division->sums);
+        if (status != PIR_OK)
+            return status;
+    }
+    if (division->tree.node_count == 0)
+        pir_plan_divide(&division->cutter, &division->sums, question->most_parts, &division->tree);
+    else
+        pir_plan_divide_more(&division->cutter, &division->sums, old, question->most_parts, &division->tree);
+    return division->space.status;
+}
+
+pir_status pir_box_division_join(bool with_doors, pir_box_division *division) {
+    pir_plan_joints_finish(&division->space, &division->joints);
+    division->joints.without_doors = !with_doors;
+    pir_plan_join(&division->cutter, &division->tree, &division->joints);
+    return division->space.status;
+}
+
+pir_status pir_box_division_make(const pir_rigid_question *question, const pir_plan_pieces *robot, bool with_doors,
+                                 pir_box_division *division) {
+    const pir_quat none = {0, 0, 0, 1};
+    pir_status status = pir_box_division_open(question, division);
+    if (status == PIR_OK)
         status = pir_plan_sums_make(&division->space, robot, question->obstacles, none, &division->sums);
     if (status == PIR_OK) {
         pir_plan_divide(&division->cutter, &division->sums, question->most_parts, &division->tree);
         status = division->space.status;
     }
-    if (status == PIR_OK) {
-        division->joints.without_doors = !with_doors;
-        pir_plan_join(&division->cutter, &division->tree, &division->joints);
-        status = division->space.status;
-    }
-    return status;
+    return status == PIR_OK ? pir_box_division_join(with_doors, division) : status;
 }
 
 void pir_box_division_finish(pir_box_division *division) {
@@ -50,8 +72,9 @@ uint32_t pir_box_division_cell_at(pir_box_division *division, uint32_t point) {
     return PIR_PLAN_NONE;
 }
 
-/* Keeps a division's cells; parts are numbered by their first cells. */
-static pir_status keep(const pir_box_division *division, pir_box_parts *parts) {
+/* Parts are numbered by their first cells. */
+pir_status pir_box_parts_keep(const pir_box_division *division, pir_box_parts *parts) {
+    *parts = (pir_box_parts){0};
     const pir_plan_tree *tree = &division->tree;
     uint32_t points = 0;
     for (uint32_t i = 0; i < tree->cell_count; i++)
@@ -79,19 +102,6 @@ static pir_status keep(const pir_box_division *division, pir_box_parts *parts) {
         parts->parts += to->part == parts->parts;
     }
     return PIR_OK;
-}
-
-pir_status pir_box_parts_make(const pir_rigid_question *question, const pir_plan_pieces *robot,
-                              pir_box_parts *ret_parts) {
-    pir_box_division division;
-    *ret_parts = (pir_box_parts){0};
-    pir_status status = pir_box_division_make(question, robot, false, &division);
-    if (status == PIR_OK)
-        status = keep(&division, ret_parts);
-    pir_box_division_finish(&division);
-    if (status != PIR_OK)
-        pir_box_parts_finish(ret_parts);
-    return status;
 }
 
 void pir_box_parts_finish(pir_box_parts *parts) {

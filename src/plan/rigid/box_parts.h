@@ -30,9 +30,19 @@ typedef struct pir_box_division {
     pir_plan_joints joints;
 } pir_box_division;
 
+/* The box, which nothing divides yet. To be finished also where it fails. */
+pir_status pir_box_division_open(const pir_rigid_question *question, pir_box_division *division);
+
 /* Divides the box for pieces, turned as they are. To be finished also where it fails. */
 pir_status pir_box_division_make(const pir_rigid_question *question, const pir_plan_pieces *robot, bool with_doors,
                                  pir_box_division *division);
+
+/* Divides free cells by a polytope of translations that two pieces block, or by more of them. */
+pir_status pir_box_division_add(const pir_rigid_question *question, const pir_plan_pieces *made, uint32_t first,
+                                pir_box_division *division);
+
+/* Says which cells are connected. */
+pir_status pir_box_division_join(bool with_doors, pir_box_division *division);
 void pir_box_division_finish(pir_box_division *division);
 
 /* The cell of a division that has a free point; PIR_PLAN_NONE where a sum has it. */
@@ -52,8 +62,8 @@ typedef struct pir_box_parts {
     uint32_t nodes; /* of the division */
 } pir_box_parts;
 
-pir_status pir_box_parts_make(const pir_rigid_question *question, const pir_plan_pieces *robot,
-                              pir_box_parts *ret_parts);
+/* Keeps parts of a division that is joined. To be finished also where it fails. */
+pir_status pir_box_parts_keep(const pir_box_division *division, pir_box_parts *ret_parts);
 void pir_box_parts_finish(pir_box_parts *parts);
 
 /* The bytes that parts take. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "plan/rigid/inner_division.h"
 
 bool pir_rigid_grow(pir_rigid_job *job, void **array, uint32_t *room, uint32_t need, size_t size) {
     if (job->status == PIR_OK && need > *room) {
@@ -100,27 +101,33 @@ void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
 
 /* --- parts --- */
 
-static pir_status make_parts(const pir_rigid_job *job, const pir_plan_turns *turns, bool outer, pir_box_parts *ret) {
-    pir_plan_pieces pieces;
-    pir_status status = pir_plan_pieces_over(job->question->robot, turns, outer, &pieces);
-    if (status == PIR_OK)
-        status = pir_box_parts_make(job->question, &pieces, ret);
-    pir_plan_pieces_over_free(&pieces);
-    return status;
-}
-
 static void make_leaf(void *data, uint32_t index) {
     pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = &job->leaf[job->first_new + index];
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
-    leaf->status = make_parts(job, &corners, false, &leaf->inner);
+    pir_plan_pieces sums;
+    pir_box_division division;
+    leaf->status = pir_inner_division_make(job->question, &corners, &sums, &division);
+    if (leaf->status == PIR_OK)
+        leaf->status = pir_box_parts_keep(&division, &leaf->inner);
+    pir_box_division_finish(&division);
+    pir_plan_pieces_over_free(&sums);
 }
 
 static void fill_leaf(void *data, uint32_t index) {
     pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = &job->leaf[job->list[index]];
     const pir_plan_turns middle = {{pir_rotation_box_middle(leaf->box)}, 1};
-    leaf->status = make_parts(job, &middle, true, &leaf->middle);
+    pir_plan_pieces outer;
+    leaf->status = pir_plan_pieces_over(job->question->robot, &middle, true, &outer);
+    if (leaf->status == PIR_OK) {
+        pir_box_division division;
+        leaf->status = pir_box_division_make(job->question, &outer, false, &division);
+        if (leaf->status == PIR_OK)
+            leaf->status = pir_box_parts_keep(&division, &leaf->middle);
+        pir_box_division_finish(&division);
+    }
+    pir_plan_pieces_over_free(&outer);
     leaf->is_full = leaf->status == PIR_OK;
     // a robot that is too thin for outer pieces has no hubs
     if (leaf->status == PIR_ERR_LIMIT)

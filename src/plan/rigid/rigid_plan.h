@@ -2,8 +2,8 @@
 /*
  * Whether a body can be moved between two poses by translations and any turns, between closed bodies.
  *
- * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner pieces
- * (turn_bodies.h): what they block is blocked at every rotation of the box. Free cells of boxes that share a rotation
+ * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner sums
+ * (inner_sums.h): what they have is blocked at every rotation of the box. Free cells of boxes that share a rotation
  * are joined unless they are proven to be apart. Where the ends are not connected, there is no path.
  *
  * A *hub* is a free place at the middle of a box. A box has those of the box that it is a part of, where the robot can
@@ -49,7 +49,7 @@ typedef struct pir_rigid_leaf {
     pir_rotation_box box;
     bool is_divided, is_full; /* whether the parts at the middle are known: the first hubs are these */
     uint32_t parent;          /* PIR_PLAN_NONE of roots */
-    pir_box_parts inner;      /* for inner pieces */
+    pir_box_parts inner;      /* for inner sums */
     pir_box_parts middle;     /* at the middle, where it is full */
     pir_rigid_hub *hub;
     uint32_t node; /* the first */

@@ -180,7 +180,7 @@ static uint32_t divide(pir_rigid_job *job) {
 }
 
 /*
- * Keeps of the list those boxes whose middles are of use, and are not known yet: where inner pieces block nothing
+ * Keeps of the list those boxes whose middles are of use, and are not known yet: where inner sums block nothing
  * nobody knows anything.
  */
 static uint32_t keep_useful(pir_rigid_job *job, uint32_t *kept) {
@@ -211,7 +211,7 @@ static void look_at_middles(pir_rigid_job *job) {
     free(kept);
 }
 
-/* Whether inner pieces leave no way between the ends. */
+/* Whether inner sums leave no way between the ends. */
 static bool is_cut(pir_rigid_job *job, uint32_t *ret_root) {
     uint32_t end[2][MOST_ENDS], ends[2];
     for (int s = 0; s < 2; s++)

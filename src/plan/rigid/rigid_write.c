@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The question, and for each box of rotations its inner pieces and the tree of its division. Divisions are made again,
+ * The question, and for each box of rotations its inner sums and the tree of its division. Divisions are made again,
  * and are the same.
  */
 #include "plan/rigid/rigid_write.h"
@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "plan/plan_write.h"
+#include "plan/rigid/inner_division.h"
 
 static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
     const struct {
@@ -32,12 +33,13 @@ static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
 }
 
 /* One box: the root of each of its cells is that of the node that its part is. */
-static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, const pir_plan_pieces *inner,
-                          pir_plan_writer *w) {
+static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, pir_plan_writer *w) {
+    const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_box_division division;
-    pir_status status = pir_box_division_make(job->question, inner, false, &division);
+    pir_plan_pieces sums;
+    pir_status status = pir_inner_division_make(job->question, &corners, &sums, &division);
     uint32_t *root = calloc(leaf->inner.cells > 0 ? leaf->inner.cells : 1, sizeof *root);
-    const uint32_t most = pir_plan_most_corners(inner);
+    const uint32_t most = pir_plan_most_corners(&sums);
     uint32_t *corner = calloc(most, sizeof *corner), *kept = w->corner;
     status = status == PIR_OK && (!root || !corner) ? PIR_ERR_MEMORY : status;
     if (status == PIR_OK) {
@@ -54,7 +56,7 @@ static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, const 
         w->tree = &division.tree;
         w->root = root;
         w->corner = corner;
-        pir_plan_put_pieces(w, "inner", inner);
+        pir_plan_put_pieces(w, "sums", &sums);
         pir_plan_put_tree(w);
         fputs("}", w->file);
     }
@@ -62,6 +64,7 @@ static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, const 
     free(corner);
     free(root);
     pir_box_division_finish(&division);
+    pir_plan_pieces_over_free(&sums);
     return status;
 }
 
@@ -79,14 +82,9 @@ pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file) {
         const pir_rigid_leaf *leaf = &job->leaf[i];
         if (leaf->is_divided)
             continue;
-        const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
-        pir_plan_pieces inner;
         fputs(is_first ? "\n " : ",\n ", file);
         is_first = false;
-        status = pir_plan_pieces_over(q->robot, &corners, false, &inner);
-        if (status == PIR_OK)
-            status = put_box(job, leaf, &inner, &w);
-        pir_plan_pieces_over_free(&inner);
+        status = put_box(job, leaf, &w);
     }
     fputs("]}\n", file);
     mpq_clear(w.x);
