@@ -20,7 +20,7 @@ pir_status pir_box_division_open(const pir_rigid_question *question, pir_box_div
 
 pir_status pir_box_division_add(const pir_rigid_question *question, const pir_plan_pieces *made, uint32_t first,
                                 pir_box_division *division) {
-    const uint32_t obstacles = question->obstacles->count, old = division->sums.count;
+    const uint32_t obstacles = question->wide->count, old = division->sums.count;
     for (uint32_t i = first; i < made->count; i++) {
         const pir_status status = pir_plan_sums_add(&division->space, made->at[i], made->body[i] / obstacles,
                                                     made->body[i] % obstacles, &division->sums);

@@ -13,13 +13,13 @@
 
 /* The question. Rotations and bounds are borrowed for as long as the plan is made. */
 typedef struct pir_rigid_question {
-    const pir_plan_pieces *robot, *obstacles;
-    double low[3], high[3]; /* bounds of translations */
-    double at[2][3];        /* translations: from, to */
-    pir_quat rotation[2];   /* likewise */
-    uint32_t most_boxes;    /* of rotations */
-    uint32_t most_parts;    /* of the boxes of one division */
-    size_t memory;          /* of one division, and of all parts that are kept */
+    const pir_plan_pieces *robot, *obstacles, *wide; /* pieces; those of obstacles made wide (wide_pieces.h) */
+    double low[3], high[3];                          /* bounds of translations */
+    double at[2][3];                                 /* translations: from, to */
+    pir_quat rotation[2];                            /* likewise */
+    uint32_t most_boxes;                             /* of rotations */
+    uint32_t most_parts;                             /* of the boxes of one division */
+    size_t memory;                                   /* of one division, and of all parts that are kept */
 } pir_rigid_question;
 
 typedef struct pir_box_division {

@@ -240,7 +240,7 @@ static pir_status choose(struct sum_choice *c) {
 
 pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns,
                                    pir_plan_pieces *ret_sums, pir_box_division *ret_division) {
-    const uint32_t pairs = question->robot->count * question->obstacles->count;
+    const uint32_t pairs = question->robot->count * question->wide->count;
     struct sum_choice c = {.question = question,
                            .sums = ret_sums,
                            .division = ret_division,

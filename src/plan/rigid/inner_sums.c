@@ -10,9 +10,9 @@
 #define GRID_BITS 24
 #define KEPT      0x1p-22 /* of the size: how far points stay within half-spaces, unrounded */
 #define ROUNDED   0x1p-44 /* of the size: more than what doubles lose */
-#define INWARDS   0.7 /* how far obstacles' points are moved, beside the robot's size */
-#define IN_STEPS  6   /* halvings of the way that a point is moved inwards */
-#define OUTWARDS  0.5 /* how far points are moved outwards at most, beside the robot's size */
+#define INWARDS   0.7     /* how far obstacles' points are moved, beside the robot's size */
+#define IN_STEPS  6       /* halvings of the way that a point is moved inwards */
+#define OUTWARDS  0.5     /* how far points are moved outwards at most, beside the robot's size */
 #define OUT_STEPS 5
 #define ROUNDS    3    /* of points before facets */
 #define GAIN      0.04 /* the least part of OUTWARDS that a point is to be before its facet */
@@ -477,7 +477,7 @@ struct pir_inner_search {
 
 pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_plan_turns *turns,
                                  pir_inner_search **ret_search) {
-    const uint32_t robots = question->robot->count, obstacles = question->obstacles->count;
+    const uint32_t robots = question->robot->count, obstacles = question->wide->count;
     pir_inner_search *s = calloc(1, sizeof *s);
     *ret_search = s;
     if (!s)
@@ -492,7 +492,7 @@ pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_p
     for (uint32_t k = 0; k < robots && good; k++)
         good = read_faces(question->robot->at[k], &s->robot[k]);
     for (uint32_t l = 0; l < obstacles && good; l++)
-        good = read_faces(question->obstacles->at[l], &s->obstacle[l]);
+        good = read_faces(question->wide->at[l], &s->obstacle[l]);
     for (uint32_t i = 0; i < robots * obstacles && good; i++) {
         s->pair[i] = (struct sum_search){.forms = &s->forms,
                                          .robot = &s->robot[i / obstacles],
@@ -507,7 +507,7 @@ pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_p
 void pir_inner_search_close(pir_inner_search *s) {
     if (!s)
         return;
-    const uint32_t robots = s->question->robot->count, obstacles = s->question->obstacles->count;
+    const uint32_t robots = s->question->robot->count, obstacles = s->question->wide->count;
     for (uint32_t i = 0; s->pair && i < robots * obstacles; i++)
         finish_search(&s->pair[i]);
     for (uint32_t k = 0; s->robot && k < robots; k++)
@@ -547,13 +547,13 @@ bool pir_inner_has(pir_inner_search *search, uint32_t pair, const double at[3]) 
 }
 
 pir_status pir_inner_sum_make(pir_inner_search *search, uint32_t pair, pir_polytope **ret_sum) {
-    const uint32_t obstacles = search->question->obstacles->count;
+    const uint32_t obstacles = search->question->wide->count;
     pir_polytope *back = NULL;
     pir_status status = pir_polytope_reflect(search->question->robot->at[pair / obstacles], &back);
     *ret_sum = NULL;
     if (status == PIR_OK)
-        status = sum_within(back, search->question->obstacles->at[pair % obstacles], search->middle,
-                            &search->pair[pair], ret_sum);
+        status = sum_within(back, search->question->wide->at[pair % obstacles], search->middle, &search->pair[pair],
+                            ret_sum);
     pir_polytope_release(back);
     return status;
 }

@@ -8,6 +8,7 @@
 #include "base/options.h"
 #include "base/report.h"
 #include "plan/rigid/rigid_search.h"
+#include "plan/rigid/wide_pieces.h"
 #include "scene/tasks/tasks.h"
 
 struct pir_rigid_plan {
@@ -20,7 +21,7 @@ struct rigid_call {
     const pir_rigid_plan_input *input;
     pir_rigid_plan_options how;
     pir_plan_space space;
-    pir_plan_pieces robot, obstacles;
+    pir_plan_pieces robot, obstacles, wide;
     pir_rigid_question question;
 };
 
@@ -66,6 +67,7 @@ static void fill_question(struct rigid_call *t) {
     const pir_vec3 a = in->from.translation, b = in->to.translation;
     t->question = (pir_rigid_question){.robot = &t->robot,
                                        .obstacles = &t->obstacles,
+                                       .wide = &t->wide,
                                        .low = {in->low.x, in->low.y, in->low.z},
                                        .high = {in->high.x, in->high.y, in->high.z},
                                        .at = {{a.x, a.y, a.z}, {b.x, b.y, b.z}},
@@ -106,6 +108,8 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
     fill_question(t);
     status = check_ends(t);
     if (status == PIR_OK)
+        status = pir_wide_pieces_make(&t->obstacles, t->how.memory, &t->wide);
+    if (status == PIR_OK)
         status = pir_task_pool_create(&allocator, t->how.threads, &pool);
     if (status != PIR_OK)
         return status;
@@ -129,6 +133,7 @@ static pir_status answer(struct rigid_call *t, pir_rigid_plan **ret_plan) {
     status = decide(t, plan);
     pir_plan_pieces_finish(&t->space, &t->robot);
     pir_plan_pieces_finish(&t->space, &t->obstacles);
+    pir_plan_pieces_over_free(&t->wide);
     pir_plan_space_finish(&t->space);
     if (status == PIR_OK)
         *ret_plan = plan;

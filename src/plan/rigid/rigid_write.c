@@ -29,7 +29,7 @@ static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
         pir_plan_put_doubles(w, x, 4);
     }
     pir_plan_put_pieces(w, "robot", q->robot);
-    pir_plan_put_pieces(w, "obstacles", q->obstacles);
+    pir_plan_put_pieces(w, "obstacles", q->wide);
 }
 
 /* One box: the root of each of its cells is that of the node that its part is. */
@@ -70,7 +70,7 @@ static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, pir_pl
 
 pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file) {
     const pir_rigid_question *q = job->question;
-    const uint32_t own = pir_plan_most_corners(q->robot), other = pir_plan_most_corners(q->obstacles);
+    const uint32_t own = pir_plan_most_corners(q->robot), other = pir_plan_most_corners(q->wide);
     pir_plan_writer w = {.file = file, .start = start, .corner = calloc(own > other ? own : other, sizeof *w.corner)};
     pir_status status = w.corner ? PIR_OK : PIR_ERR_MEMORY;
     bool is_first = true;

@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: MIT */
+/* See wide_pieces.h. */
+#include "plan/rigid/wide_pieces.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "plan/plan_cell.h"
+
+#define SHRUNK      0x1p-40 /* how far corners are moved to the middle, of the way */
+#define SAME        1e-9    /* of the size: how far a piece may be beyond another that stands for it */
+#define MOST_SPLITS 2000    /* of one proof */
+
+struct widener {
+    pir_plan_space space;
+    pir_plan_cutter cutter;
+    pir_plan_sums sums; /* the pieces, then hulls of bodies */
+    uint32_t pieces, splits;
+};
+
+/* Whether pieces from one on have all of a cell, which is freed. */
+static bool is_covered(struct widener *w, pir_plan_cell *cell, uint32_t from) {
+    bool covered = false, is_open = cell->dimension == 3;
+    for (uint32_t i = from; i < w->pieces && is_open && w->space.status == PIR_OK; i++) {
+        const pir_plan_sum *own = &w->sums.sum[i];
+        if (!pir_plan_boxes_meet(cell->low, cell->high, own->low, own->high))
+            continue;
+        bool is_apart = false;
+        covered = true;
+        for (uint32_t h = 0; h < own->halves && covered && !is_apart && w->space.status == PIR_OK; h++) {
+            int least, most;
+            const uint32_t half = w->sums.half[own->half + h];
+            pir_plan_cell_sides(&w->cutter, cell, half, &least, &most);
+            is_apart = least >= 0;
+            if (is_apart || most <= 0)
+                continue;
+            pir_plan_cell part[2];
+            covered = ++w->splits <= MOST_SPLITS;
+            pir_plan_cell_split(&w->cutter, cell, half, &part[0], &part[1]);
+            pir_plan_cell_free(&w->space, cell);
+            *cell = part[0];
+            if (covered && w->space.status == PIR_OK)
+                covered = is_covered(w, &part[1], i + 1);
+            else
+                pir_plan_cell_free(&w->space, &part[1]);
+        }
+        is_open = is_apart && covered;
+        covered = covered && !is_apart;
+    }
+    covered = covered || cell->dimension < 3;
+    pir_plan_cell_free(&w->space, cell);
+    return covered && w->space.status == PIR_OK;
+}
+
+/* Takes from a cell what is beyond half-spaces of a sum, but for those that are left out. */
+static void clip(struct widener *w, const pir_plan_sum *by, const bool *left_out, pir_plan_cell *cell) {
+    for (uint32_t h = 0; h < by->halves && w->space.status == PIR_OK; h++) {
+        if (left_out && left_out[h])
+            continue;
+        pir_plan_cell next;
+        pir_plan_cell_clip(&w->cutter, cell, w->sums.half[by->half + h], &next);
+        pir_plan_cell_free(&w->space, cell);
+        *cell = next;
+    }
+}
+
+/* The part of a hull within the half-spaces of a piece, but for those that are left out. */
+static pir_plan_cell cell_of(struct widener *w, const pir_plan_sum *hull, const pir_plan_sum *piece,
+                             const bool *left_out) {
+    pir_plan_cell cell;
+    double low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        low[k] = hull->low[k] - 1;
+        high[k] = hull->high[k] + 1;
+    }
+    pir_plan_cell_box(&w->cutter, low, high, &cell);
+    clip(w, hull, NULL, &cell);
+    if (piece)
+        clip(w, piece, left_out, &cell);
+    return cell;
+}
+
+/* A polytope within a cell, proven to be in the pieces; NULL where it is not. */
+static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_polytope **ret_made) {
+    pir_vec3 *x = calloc(cell->points + 1, sizeof *x), middle = {0, 0, 0};
+    pir_polytope *made = NULL;
+    *ret_made = NULL;
+    if (!x)
+        return PIR_ERR_MEMORY;
+    for (uint32_t v = 0; v < cell->points; v++) {
+        const double *at = pir_plan_point_exact(&w->space, cell->point[v])->at;
+        x[v] = (pir_vec3){at[0], at[1], at[2]};
+        middle.x += at[0] / cell->points;
+        middle.y += at[1] / cell->points;
+        middle.z += at[2] / cell->points;
+    }
+    for (uint32_t v = 0; v < cell->points; v++)
+        x[v] = (pir_vec3){x[v].x + SHRUNK * (middle.x - x[v].x), x[v].y + SHRUNK * (middle.y - x[v].y),
+                          x[v].z + SHRUNK * (middle.z - x[v].z)};
+    pir_status status = pir_polytope_create(x, cell->points, NULL, &made);
+    free(x);
+    if (status == PIR_OK && pir_polytope_dimension(made) == 3) {
+        const uint32_t number = w->sums.count;
+        status = pir_plan_sums_add(&w->space, made, 0, 0, &w->sums);
+        if (status == PIR_OK) {
+            pir_plan_cell own = cell_of(w, &w->sums.sum[number], NULL, NULL);
+            w->splits = 0;
+            if (is_covered(w, &own, 0)) {
+                *ret_made = made;
+                made = NULL;
+            }
+            status = w->space.status;
+        }
+    }
+    pir_polytope_release(made);
+    return status;
+}
+
+/* The widest piece that a piece of a body with a hull makes, or the piece. */
+static pir_status widen(struct widener *w, uint32_t piece, uint32_t hull, pir_polytope *own, pir_polytope **ret_wide) {
+    const uint32_t halves = w->sums.sum[piece].halves;
+    bool *left_out = calloc(halves, sizeof *left_out), any = false;
+    pir_status status = left_out ? PIR_OK : PIR_ERR_MEMORY;
+    for (uint32_t h = 0; h < halves && status == PIR_OK; h++) {
+        left_out[h] = true;
+        pir_plan_cell cell = cell_of(w, &w->sums.sum[hull], &w->sums.sum[piece], left_out);
+        w->splits = 0;
+        left_out[h] = is_covered(w, &cell, 0);
+        any = any || left_out[h];
+        status = w->space.status;
+    }
+    *ret_wide = NULL;
+    if (status == PIR_OK && any) {
+        pir_plan_cell cell = cell_of(w, &w->sums.sum[hull], &w->sums.sum[piece], left_out);
+        status = w->space.status == PIR_OK ? round_cell(w, &cell, ret_wide) : w->space.status;
+        pir_plan_cell_free(&w->space, &cell);
+    }
+    if (status == PIR_OK && !*ret_wide)
+        *ret_wide = pir_polytope_retain(own);
+    free(left_out);
+    return status;
+}
+
+/* Whether a polytope is in another, nearly. */
+static bool is_in(const pir_polytope *a, const pir_polytope *b) {
+    double size = 0;
+    uint32_t *corner = calloc(pir_polytope_vertex_count(b), sizeof *corner);
+    bool has = corner != NULL;
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(b); v++) {
+        const pir_vec3 x = pir_polytope_vertex(b, v);
+        size = fmax(size, fabs(x.x) + fabs(x.y) + fabs(x.z));
+    }
+    for (uint32_t f = 0; f < pir_polytope_facet_count(b) && has; f++) {
+        const pir_vec3 n = pir_polytope_normal(b, f);
+        pir_polytope_facet(b, f, corner);
+        const pir_vec3 on = pir_polytope_vertex(b, corner[0]);
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(a) && has; v++) {
+            const pir_vec3 x = pir_polytope_vertex(a, v);
+            has = n.x * (x.x - on.x) + n.y * (x.y - on.y) + n.z * (x.z - on.z) <= SAME * size;
+        }
+    }
+    free(corner);
+    return has;
+}
+
+/* The hull of all pieces of a body. */
+static pir_status add_hull(struct widener *w, const pir_plan_pieces *pieces, uint32_t body) {
+    size_t room = 0, count = 0;
+    for (uint32_t i = 0; i < pieces->count; i++)
+        room += pir_polytope_vertex_count(pieces->at[i]);
+    pir_vec3 *x = calloc(room + 1, sizeof *x);
+    pir_polytope *hull = NULL;
+    for (uint32_t i = 0; i < pieces->count && x; i++)
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(pieces->at[i]) && pieces->body[i] == body; v++)
+            x[count++] = pir_polytope_vertex(pieces->at[i], v);
+    pir_status status = x ? pir_polytope_create(x, count, NULL, &hull) : PIR_ERR_MEMORY;
+    if (status == PIR_OK)
+        status = pir_plan_sums_add(&w->space, hull, 0, 0, &w->sums);
+    pir_polytope_release(hull);
+    free(x);
+    return status;
+}
+
+static pir_status make_all(struct widener *w, const pir_plan_pieces *pieces, pir_plan_pieces *wide) {
+    pir_status status = w->space.status;
+    for (uint32_t i = 0; i < pieces->count && status == PIR_OK; i++)
+        status = pir_plan_sums_add(&w->space, pieces->at[i], 0, 0, &w->sums);
+    for (uint32_t i = 0, hull = 0; i < pieces->count && status == PIR_OK; i++) {
+        pir_polytope *made;
+        if (i == 0 || pieces->body[i] != pieces->body[i - 1]) {
+            hull = w->sums.count;
+            status = add_hull(w, pieces, pieces->body[i]);
+        }
+        if (status == PIR_OK)
+            status = widen(w, i, hull, pieces->at[i], &made);
+        if (status != PIR_OK)
+            return status;
+        bool is_told = false;
+        for (uint32_t k = 0; k < wide->count && !is_told; k++)
+            is_told = is_in(made, wide->at[k]);
+        if (is_told) {
+            pir_polytope_release(made);
+        } else {
+            wide->body[wide->count] = pieces->body[i];
+            wide->at[wide->count++] = made;
+        }
+    }
+    return status;
+}
+
+pir_status pir_wide_pieces_make(const pir_plan_pieces *pieces, size_t memory, pir_plan_pieces *ret_wide) {
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    struct widener w = {.pieces = pieces->count};
+    *ret_wide = (pir_plan_pieces){.at = calloc(pieces->count, sizeof *ret_wide->at),
+                                  .body = calloc(pieces->count, sizeof *ret_wide->body)};
+    pir_plan_space_init(&w.space, &allocator, memory);
+    w.cutter.space = &w.space;
+    const pir_status status = ret_wide->at && ret_wide->body ? make_all(&w, pieces, ret_wide) : PIR_ERR_MEMORY;
+    pir_plan_sums_finish(&w.space, &w.sums);
+    pir_plan_cutter_finish(&w.cutter);
+    pir_plan_space_finish(&w.space);
+    return status;
+}
