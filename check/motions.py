@@ -186,18 +186,22 @@ class Motions(Plan):
         self.boxes = [Box(self, box) for box in told["boxes"]]
 
     def check_cover(self):
-        """The boxes of each chart are the leaves of an octree of it."""
-        there = {tuple(box.bounds) for box in self.boxes}
-        todo = [[(ONE, ONE) if k == chart else (-ONE, ONE) for k in range(4)] for chart in range(4)]
+        """The boxes of each chart are what halvings of it leave."""
+        todo = [([(ONE, ONE) if k == chart else (-ONE, ONE) for k in range(4)],
+                 [box.bounds for box in self.boxes if box.bounds[chart] == (ONE, ONE)]) for chart in range(4)]
         while todo:
-            bounds = todo.pop()
-            if tuple(bounds) in there:
+            bounds, rest = todo.pop()
+            if bounds in rest:
                 continue
-            need(all(low + high == 2 * ((low + high) // 2) for low, high in bounds), "the boxes leave rotations out")
-            need(sum(high - low > 1 for low, high in bounds) == 3, "the boxes leave rotations out")
-            halves = [[(low, high)] if low == high else [(low, (low + high) // 2), ((low + high) // 2, high)]
-                      for low, high in bounds]
-            todo += [list(child) for child in product(*halves)]
+            for k, (low, high) in enumerate(bounds):
+                middle = (low + high) // 2
+                below, above = [b for b in rest if b[k][1] <= middle], [b for b in rest if b[k][0] >= middle]
+                if low < middle and len(below) + len(above) == len(rest) > 0:
+                    break
+            else:
+                raise ValueError("the boxes leave rotations out")
+            todo += [(bounds[:k] + [half] + bounds[k + 1:], part)
+                     for half, part in (((low, middle), below), ((middle, high), above))]
 
     def check(self, models=()):
         self.check_cover()

@@ -23,6 +23,13 @@ def wider_box(told, parts, random_):
     box["box"] = [[low, high] if low == high else [-2 ** 20, 2 ** 20] for low, high in box["box"]]
 
 
+def narrower_box(told, parts, random_):
+    """A box is told to be the half of itself."""
+    box = random_.choice(told[parts])["box"]
+    interval = random_.choice([interval for interval in box if interval[0] < interval[1]])
+    interval[random_.randrange(2)] = sum(interval) // 2
+
+
 def other_pair(told, parts, random_):
     """A sum is told to be of another obstacle."""
     piece = random_.choice([p for box in told[parts] for p in box["sums"]])
@@ -55,7 +62,8 @@ def main(program, folder):
     sys.path.insert(0, folder)
     import motions
     check_form(motions, random.Random(1))
-    proof_lies.hold(program, motions.main, motions.Motions, "boxes", [box_twice, wider_box, other_pair, point_moved])
+    lies = [box_twice, wider_box, narrower_box, other_pair, point_moved]
+    proof_lies.hold(program, motions.main, motions.Motions, "boxes", lies)
 
 
 if __name__ == "__main__":

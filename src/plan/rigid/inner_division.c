@@ -14,9 +14,6 @@
 #define NEARS      48
 #define LEAST_PART 0.01
 
-/* Facets of more corners are not held against points. */
-#define MOST_CORNERS 64
-
 struct sum_choice {
     const pir_rigid_question *question;
     pir_inner_search *search;
@@ -86,10 +83,11 @@ static void reach(const pir_box_division *division, uint32_t from, uint32_t *by)
 /* Looks along the way between two cells. */
 static pir_status look_at_way(struct sum_choice *c, const uint32_t cell[2]) {
     const pir_plan_joints *joints = &c->division->joints;
-    uint32_t *by = calloc(joints->cells, sizeof *by), now = cell[1];
+    pir_plan_space *space = &c->division->space;
+    uint32_t *by = pir_plan_new(space, joints->cells, sizeof *by), now = cell[1];
     double last[3], next[3];
     if (!by)
-        return PIR_ERR_MEMORY;
+        return space->status;
     c->best = PIR_PLAN_NONE;
     c->depth = 0;
     reach(c->division, cell[0], by);
@@ -106,7 +104,7 @@ static pir_status look_at_way(struct sum_choice *c, const uint32_t cell[2]) {
         memcpy(last, next, sizeof last);
     }
     look_along(c, last, c->question->at[0]);
-    free(by);
+    pir_plan_free(space, by, joints->cells, sizeof *by);
     return PIR_OK;
 }
 
@@ -131,13 +129,8 @@ static uint32_t cell_of(struct sum_choice *c, int end) {
 
 /* Adds points about the deepest one of a way: of a lattice that fills a ball. */
 static bool add_near(struct sum_choice *c) {
-    if (c->nears + NEARS > c->room) {
-        c->room = 2 * c->room + NEARS;
-        double(*grown)[3] = realloc(c->near, c->room * sizeof *grown);
-        if (!grown)
-            return false;
-        c->near = grown;
-    }
+    if (!pir_plan_grow(&c->division->space, (void **)&c->near, &c->room, c->nears + NEARS, sizeof *c->near))
+        return false;
     for (int i = 0; i < NEARS; i++) {
         // the fractional parts of multiples of roots of x^4 = x + 1 are even in the cube
         const double part[3] = {fmod((i + 1) * 0.8191725134, 1), fmod((i + 1) * 0.6710436067, 1),
@@ -155,10 +148,8 @@ static bool is_blocked(const struct sum_choice *c, const double x[3]) {
         const pir_polytope *made = c->sums->at[i];
         bool has = true;
         for (uint32_t f = 0; f < pir_polytope_facet_count(made) && has; f++) {
-            uint32_t corner[MOST_CORNERS];
+            uint32_t corner[PIR_INNER_CORNERS];
             const pir_vec3 n = pir_polytope_normal(made, f);
-            if (pir_polytope_facet_size(made, f) > MOST_CORNERS)
-                continue;
             pir_polytope_facet(made, f, corner);
             const pir_vec3 v = pir_polytope_vertex(made, corner[0]);
             has = n.x * (x[0] - v.x) + n.y * (x[1] - v.y) + n.z * (x[2] - v.z) <= 0;
@@ -172,9 +163,11 @@ static bool is_blocked(const struct sum_choice *c, const double x[3]) {
 /* Makes sums of pairs that have points near ways which no sum has yet, those of most points first. */
 static pir_status thicken(struct sum_choice *c) {
     const uint32_t first = c->sums->count;
-    bool *has = calloc((size_t)c->nears * c->pairs + 1, sizeof *has);
-    uint32_t *count = calloc(c->pairs, sizeof *count);
-    pir_status status = has && count ? PIR_OK : PIR_ERR_MEMORY;
+    pir_plan_space *space = &c->division->space;
+    const size_t all = (size_t)c->nears * c->pairs;
+    bool *has = pir_plan_new(space, all, sizeof *has);
+    uint32_t *count = pir_plan_new(space, c->pairs, sizeof *count);
+    pir_status status = space->status;
     for (uint32_t i = 0; i < c->nears && status == PIR_OK; i++)
         for (uint32_t p = 0; p < c->pairs && !is_blocked(c, c->near[i]); p++) {
             has[i * c->pairs + p] =
@@ -197,14 +190,15 @@ static pir_status thicken(struct sum_choice *c) {
             }
         count[best] = 0;
     }
-    free(has);
-    free(count);
+    pir_plan_free(space, has, all, sizeof *has);
+    pir_plan_free(space, count, c->pairs, sizeof *count);
     if (status == PIR_OK && c->sums->count > first)
         status = pir_box_division_add(c->question, c->sums, first, c->division);
     return status == PIR_OK ? pir_box_division_join(false, c->division) : status;
 }
 
-static pir_status add_rest(struct sum_choice *c) {
+/* Makes the sums of all pairs. */
+static pir_status add_all(struct sum_choice *c) {
     const uint32_t first = c->sums->count;
     pir_status status = PIR_OK;
     for (uint32_t p = 0; p < c->pairs && status == PIR_OK; p++)
@@ -224,14 +218,13 @@ static pir_status choose(struct sum_choice *c) {
             break;
         const uint32_t cell[2] = {cell_of(c, 0), cell_of(c, 1)};
         if (cell[0] == PIR_PLAN_NONE || cell[1] == PIR_PLAN_NONE)
-            return add_rest(c);
+            return add_all(c);
         if (c->division->joints.root[cell[0]] != c->division->joints.root[cell[1]])
             return thicken(c);
         status = look_at_way(c, cell);
-        if (status == PIR_OK && c->best == PIR_PLAN_NONE)
-            return add_rest(c);
-        if (status == PIR_OK)
-            status = add_near(c) ? make_sum(c, c->best) : PIR_ERR_MEMORY;
+        if (status != PIR_OK || c->best == PIR_PLAN_NONE)
+            break;
+        status = add_near(c) ? make_sum(c, c->best) : c->division->space.status;
         if (status == PIR_OK && c->sums->count > first)
             status = pir_box_division_add(c->question, c->sums, first, c->division);
     }
@@ -240,24 +233,26 @@ static pir_status choose(struct sum_choice *c) {
 
 pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns,
                                    pir_plan_pieces *ret_sums, pir_box_division *ret_division) {
+    pir_plan_space *space = &ret_division->space;
     const uint32_t pairs = question->robot->count * question->wide->count;
     struct sum_choice c = {.question = question,
                            .sums = ret_sums,
                            .division = ret_division,
-                           .used = calloc(pairs, sizeof *c.used),
                            .pairs = pairs,
                            .size = size_of(question->robot)};
     *ret_sums =
         (pir_plan_pieces){.at = calloc(pairs, sizeof *ret_sums->at), .body = calloc(pairs, sizeof *ret_sums->body)};
     pir_status status = pir_box_division_open(question, ret_division);
-    if (status == PIR_OK && !(c.used && ret_sums->at && ret_sums->body))
+    if (status == PIR_OK && !(ret_sums->at && ret_sums->body))
         status = PIR_ERR_MEMORY;
-    if (status == PIR_OK)
-        status = pir_inner_search_open(question, turns, &c.search);
+    if (status == PIR_OK) {
+        c.used = pir_plan_new(space, pairs, sizeof *c.used);
+        status = pir_inner_search_open(question, turns, space, &c.search);
+    }
     if (status == PIR_OK)
         status = choose(&c);
     pir_inner_search_close(c.search);
-    free(c.near);
-    free(c.used);
+    pir_plan_free(space, c.near, c.room, sizeof *c.near);
+    pir_plan_free(space, c.used, c.used ? pairs : 0, sizeof *c.used);
     return status;
 }

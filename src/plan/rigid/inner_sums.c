@@ -3,7 +3,7 @@
 #include "plan/rigid/inner_sums.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include <pirouette/sum.h>
 
@@ -14,8 +14,8 @@
 #define IN_STEPS  6       /* halvings of the way that a point is moved inwards */
 #define OUTWARDS  0.5     /* how far points are moved outwards at most, beside the robot's size */
 #define OUT_STEPS 5
-#define ROUNDS    3    /* of points before facets */
 #define GAIN      0.04 /* the least part of OUTWARDS that a point is to be before its facet */
+#define FAR_OUT   10   /* how much less a corner counts that is beyond the bounds by one */
 
 static double dot(pir_vec3 a, pir_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -38,6 +38,43 @@ static pir_vec3 turned(const pir_turn_forms *forms, int which, pir_vec3 v) {
     return (pir_vec3){dot(row[0], v), dot(row[1], v), dot(row[2], v)};
 }
 
+/* --- memory --- */
+
+/* A block of a search; all are freed with it. */
+struct block {
+    struct block *next;
+    size_t bytes;
+};
+
+struct pir_inner_search {
+    const pir_rigid_question *question;
+    pir_plan_space *space;
+    struct block *first;
+    pir_turn_forms forms;
+    pir_quat middle;
+    struct faces *robot, *obstacle; /* of all pieces */
+    struct sum_search *pair;
+};
+
+/* An array, zeroed; NULL once the space's status is a failure. */
+static void *take(pir_inner_search *s, size_t count, size_t size) {
+    const size_t bytes = sizeof(struct block) + count * size;
+    struct block *block = pir_plan_new(s->space, 1, bytes);
+    if (!block)
+        return NULL;
+    *block = (struct block){s->first, bytes};
+    s->first = block;
+    return block + 1;
+}
+
+static void free_from(pir_inner_search *s, struct block *last) {
+    while (s->first != last) {
+        struct block *block = s->first;
+        s->first = block->next;
+        pir_plan_free(s->space, block, 1, block->bytes);
+    }
+}
+
 /* --- pieces --- */
 
 /* A piece: its corners, half-spaces n·x ≤ d of unit normals, edges with the two facets at each. */
@@ -47,16 +84,11 @@ struct faces {
     uint32_t (*edge)[2], (*side)[2];
     pir_vec3 *way, middle; /* of edges, of length 1; the mean of corners */
     uint32_t vertices, facets, edges;
+    /* of the robot's, per form and then for the middle: normals reflected, ways of edges, ways × their first corners,
+     * points that may prove */
+    pir_vec3 *back, *turned_way, *moment, *turned_point;
+    uint32_t points;
 };
-
-static void free_faces(struct faces *f) {
-    free(f->v);
-    free(f->n);
-    free(f->d);
-    free(f->edge);
-    free(f->side);
-    free(f->way);
-}
 
 /* Notes that a facet goes from one corner to another. */
 static void add_side(struct faces *f, uint32_t facet, uint32_t a, uint32_t b) {
@@ -72,68 +104,44 @@ static void add_side(struct faces *f, uint32_t facet, uint32_t a, uint32_t b) {
     f->side[f->edges++][0] = facet;
 }
 
-static bool read_faces(const pir_polytope *piece, struct faces *f) {
-    const uint32_t vertices = pir_polytope_vertex_count(piece), facets = pir_polytope_facet_count(piece);
-    const uint32_t edges = pir_polytope_edge_count(piece);
-    uint32_t *corner = calloc(vertices, sizeof *corner);
-    *f = (struct faces){.v = calloc(vertices, sizeof *f->v),
-                        .n = calloc(facets, sizeof *f->n),
-                        .d = calloc(facets, sizeof *f->d),
-                        .edge = calloc(edges, sizeof *f->edge),
-                        .side = calloc(edges, sizeof *f->side),
-                        .way = calloc(edges, sizeof *f->way),
-                        .vertices = vertices,
-                        .facets = facets};
-    const bool good = corner && f->v && f->n && f->d && f->edge && f->side && f->way;
-    for (uint32_t i = 0; i < vertices && good; i++) {
-        f->v[i] = pir_polytope_vertex(piece, i);
-        f->size = fmax(f->size, sqrt(dot(f->v[i], f->v[i])));
-        f->middle = sum_of(f->middle, 1.0 / vertices, f->v[i]);
-    }
-    for (uint32_t i = 0; i < facets && good; i++) {
+/* Reads facets: corners that go up make edges, those that go down find them. */
+static void read_facets(const pir_polytope *piece, uint32_t *corner, bool up, struct faces *f) {
+    for (uint32_t i = 0; i < f->facets; i++) {
         const uint32_t size = pir_polytope_facet_size(piece, i);
         pir_polytope_facet(piece, i, corner);
         f->n[i] = pir_polytope_normal(piece, i);
         f->d[i] = dot(f->n[i], f->v[corner[0]]);
         for (uint32_t k = 0; k < size; k++)
-            if (corner[k] < corner[(k + 1) % size])
+            if ((corner[k] < corner[(k + 1) % size]) == up)
                 add_side(f, i, corner[k], corner[(k + 1) % size]);
     }
-    for (uint32_t i = 0; i < facets && good; i++) {
-        const uint32_t size = pir_polytope_facet_size(piece, i);
-        pir_polytope_facet(piece, i, corner);
-        for (uint32_t k = 0; k < size; k++)
-            if (corner[k] > corner[(k + 1) % size])
-                add_side(f, i, corner[k], corner[(k + 1) % size]);
+}
+
+static bool read_faces(pir_inner_search *s, const pir_polytope *piece, struct faces *f) {
+    const uint32_t vertices = pir_polytope_vertex_count(piece), facets = pir_polytope_facet_count(piece);
+    const uint32_t edges = pir_polytope_edge_count(piece);
+    uint32_t *corner = take(s, vertices, sizeof *corner);
+    *f = (struct faces){.v = take(s, vertices, sizeof *f->v),
+                        .n = take(s, facets, sizeof *f->n),
+                        .d = take(s, facets, sizeof *f->d),
+                        .edge = take(s, edges, sizeof *f->edge),
+                        .side = take(s, edges, sizeof *f->side),
+                        .way = take(s, edges, sizeof *f->way),
+                        .vertices = vertices,
+                        .facets = facets};
+    if (s->space->status != PIR_OK)
+        return false;
+    for (uint32_t i = 0; i < vertices; i++) {
+        f->v[i] = pir_polytope_vertex(piece, i);
+        f->size = fmax(f->size, sqrt(dot(f->v[i], f->v[i])));
+        f->middle = sum_of(f->middle, 1.0 / vertices, f->v[i]);
     }
-    free(corner);
-    return good;
+    read_facets(piece, corner, true, f);
+    read_facets(piece, corner, false, f);
+    return true;
 }
 
-/* --- whether a translation is blocked at all rotations --- */
-
-struct sum_search {
-    const pir_turn_forms *forms;
-    const struct faces *robot, *obstacle;
-    double *reach;  /* per facet of the obstacle and point of the robot: the most of n·R·p */
-    pir_vec3 *back; /* per facet of the robot and form: the normal turned and reflected */
-    pir_vec3 *o;    /* corners, then nearest points of edges */
-    int8_t *holds;  /* per facet of the robot and o: whether its half-spaces have x, −1 where that is not known */
-    bool *open[2];  /* edges of the obstacle, of the robot, whose facets do not serve */
-    uint32_t points, os;
-    const double *low, *high; /* bounds of translations */
-    double kept, rounded;
-};
-
-static void finish_search(struct sum_search *q) {
-    free(q->reach);
-    free(q->back);
-    free(q->o);
-    free(q->holds);
-    free(q->open[0]);
-    free(q->open[1]);
-}
-
+/* The points of a piece that may prove. */
 static pir_vec3 point_of(const struct faces *f, uint32_t i) {
     if (i < f->vertices)
         return f->v[i];
@@ -143,49 +151,77 @@ static pir_vec3 point_of(const struct faces *f, uint32_t i) {
     return times(0.5, sum_of(f->v[edge[0]], 1, f->v[edge[1]]));
 }
 
+/* Turns what is of use of a robot's piece. */
+static bool turn_faces(pir_inner_search *s, struct faces *f) {
+    const size_t forms = (size_t)s->forms.count + 1;
+    f->points = f->vertices + f->edges + 1;
+    f->back = take(s, f->facets * forms, sizeof *f->back);
+    f->turned_way = take(s, f->edges * forms, sizeof *f->turned_way);
+    f->moment = take(s, f->edges * forms, sizeof *f->moment);
+    f->turned_point = take(s, f->points * forms, sizeof *f->turned_point);
+    if (s->space->status != PIR_OK)
+        return false;
+    for (int k = 0; k <= s->forms.count; k++) {
+        for (uint32_t a = 0; a < f->facets; a++)
+            f->back[a * forms + k] = times(-1, turned(&s->forms, k, f->n[a]));
+        for (uint32_t e = 0; e < f->edges; e++) {
+            f->turned_way[e * forms + k] = turned(&s->forms, k, f->way[e]);
+            f->moment[e * forms + k] = turned(&s->forms, k, cross(f->way[e], f->v[f->edge[e][0]]));
+        }
+        for (uint32_t p = 0; p < f->points; p++)
+            f->turned_point[p * forms + k] = turned(&s->forms, k, point_of(f, p));
+    }
+    return true;
+}
+
+/* --- whether a translation is blocked at all rotations --- */
+
+struct sum_search {
+    pir_inner_search *of;
+    const pir_turn_forms *forms;
+    const struct faces *robot, *obstacle;
+    double *reach; /* per facet of the obstacle and point of the robot: the most of n·R·p */
+    pir_vec3 *o;   /* corners, then nearest points of edges and facets */
+    int8_t *holds; /* per facet of the robot and o: whether its half-spaces have x, −1 where that is not known */
+    bool *open[2]; /* edges of the obstacle, of the robot, whose facets do not serve */
+    uint32_t os;
+    double kept, rounded;
+};
+
 static bool open_search(struct sum_search *q) {
     const struct faces *r = q->robot, *o = q->obstacle;
     const int count = q->forms->count;
-    q->points = r->vertices + r->edges + 1;
     q->os = o->vertices + o->edges + o->facets;
     q->kept = KEPT * (r->size + o->size);
     q->rounded = ROUNDED * (r->size + o->size);
-    q->reach = calloc((size_t)o->facets * q->points, sizeof *q->reach);
-    q->back = calloc((size_t)r->facets * (count + 1), sizeof *q->back);
-    q->o = calloc(q->os, sizeof *q->o);
-    q->holds = calloc((size_t)q->os * r->facets, sizeof *q->holds);
-    q->open[0] = calloc(o->edges, sizeof(bool));
-    q->open[1] = calloc(r->edges, sizeof(bool));
-    if (!q->reach || !q->back || !q->o || !q->holds || !q->open[0] || !q->open[1])
+    q->reach = take(q->of, (size_t)o->facets * r->points, sizeof *q->reach);
+    q->o = take(q->of, q->os, sizeof *q->o);
+    q->holds = take(q->of, (size_t)q->os * r->facets, sizeof *q->holds);
+    q->open[0] = take(q->of, o->edges, sizeof(bool));
+    q->open[1] = take(q->of, r->edges, sizeof(bool));
+    if (q->of->space->status != PIR_OK)
         return false;
-    for (uint32_t p = 0; p < q->points; p++) {
-        const pir_vec3 own = point_of(r, p);
-        for (uint32_t j = 0; j < o->facets; j++)
-            q->reach[j * q->points + p] = -INFINITY;
-        for (int k = 0; k < count; k++) {
-            const pir_vec3 at = turned(q->forms, k, own);
-            for (uint32_t j = 0; j < o->facets; j++)
-                q->reach[j * q->points + p] = fmax(q->reach[j * q->points + p], dot(o->n[j], at));
+    for (uint32_t j = 0; j < o->facets; j++)
+        for (uint32_t p = 0; p < r->points; p++) {
+            double most = -INFINITY;
+            for (int k = 0; k < count; k++)
+                most = fmax(most, dot(o->n[j], r->turned_point[p * (count + 1) + k]));
+            q->reach[j * r->points + p] = most;
         }
-    }
-    for (uint32_t a = 0; a < r->facets; a++)
-        for (int k = 0; k <= count; k++)
-            q->back[a * (count + 1) + k] = times(-1, turned(q->forms, k, r->n[a]));
-    for (uint32_t i = 0; i < o->vertices; i++)
-        q->o[i] = o->v[i];
+    memcpy(q->o, o->v, o->vertices * sizeof *q->o);
     return true;
 }
 
 /* Whether a point of the robot stays within a half-space of the obstacle. */
 static inline bool point_stays(const struct sum_search *q, uint32_t facet, uint32_t p, double along) {
-    return along + q->reach[facet * q->points + p] - q->obstacle->d[facet] <= -q->kept;
+    return along + q->reach[facet * q->robot->points + p] - q->obstacle->d[facet] <= -q->kept;
 }
 
 /* Whether half-spaces of a facet of the robot have x, for an o. */
 static bool facet_has(struct sum_search *q, uint32_t facet, uint32_t o, pir_vec3 x) {
     int8_t *known = &q->holds[facet * q->os + o];
     if (*known < 0) {
-        const pir_vec3 way = sum_of(x, -1, q->o[o]), *n = &q->back[facet * (q->forms->count + 1)];
+        const pir_vec3 way = sum_of(x, -1, q->o[o]), *n = &q->robot->back[facet * (q->forms->count + 1)];
         const double most = q->robot->d[facet] - q->kept;
         *known = dot(n[q->forms->count], way) <= most;
         for (int k = 0; k < q->forms->count && *known; k++)
@@ -219,7 +255,7 @@ static bool obstacle_holds(struct sum_search *q, pir_vec3 x) {
     for (uint32_t j = 0; j < o->facets; j++) {
         bool has = false;
         const double along = dot(o->n[j], x);
-        for (uint32_t p = 0; p < q->points && !has; p++)
+        for (uint32_t p = 0; p < q->robot->points && !has; p++)
             has = point_stays(q, j, p, along);
         if (!has)
             return false;
@@ -228,7 +264,7 @@ static bool obstacle_holds(struct sum_search *q, pir_vec3 x) {
         const uint32_t *side = o->side[e];
         const double along[2] = {dot(o->n[side[0]], x), dot(o->n[side[1]], x)};
         q->open[0][e] = true;
-        for (uint32_t p = 0; p < q->points && q->open[0][e]; p++)
+        for (uint32_t p = 0; p < q->robot->points && q->open[0][e]; p++)
             q->open[0][e] = !(point_stays(q, side[0], p, along[0]) && point_stays(q, side[1], p, along[1]));
     }
     return true;
@@ -251,40 +287,44 @@ static bool robot_holds(struct sum_search *q, pir_vec3 x) {
     return true;
 }
 
-/* Whether N·(x − o + R·p) ≤ 0 for N of two edges, times a sign, and an o and p. */
-static bool edges_have(const struct sum_search *q, pir_vec3 e, pir_vec3 f, pir_vec3 way, pir_vec3 p) {
-    const pir_vec3 of_p = cross(f, p);
+/* Whether N·(x − o + R·p) ≤ 0 for N of e and an edge of the robot, and an o and p. */
+static bool edges_have(const struct sum_search *q, pir_vec3 e, uint32_t f, pir_vec3 way, uint32_t p) {
     const int count = q->forms->count;
+    const struct faces *r = q->robot;
+    const pir_vec3 *to = &r->turned_way[f * (count + 1)], *moment = &r->moment[f * (count + 1)];
+    const bool is_own = p == r->edge[f][0];
+    const pir_vec3 of_p = cross(r->way[f], r->v[p]);
     for (int i = 0; i <= count; i++) {
         const int k = i == 0 ? count : i - 1;
-        const pir_vec3 n = cross(e, turned(q->forms, k, f));
-        if (!(dot(n, way) + dot(e, turned(q->forms, k, of_p)) <= -q->kept * sqrt(dot(n, n)) - q->rounded))
+        const pir_vec3 n = cross(e, to[k]);
+        const double most = dot(n, way) + dot(e, is_own ? moment[k] : turned(q->forms, k, of_p)) + q->rounded;
+        if (!(most <= 0 && most * most >= q->kept * q->kept * dot(n, n)))
             return false;
     }
     return true;
 }
 
 /* The corner that is farthest along a direction. */
-static pir_vec3 farthest(const struct faces *f, pir_vec3 along) {
+static uint32_t farthest(const struct faces *f, pir_vec3 along) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < f->vertices; i++)
         best = dot(f->v[i], along) > dot(f->v[best], along) ? i : best;
-    return f->v[best];
+    return best;
 }
 
 static bool pair_holds(const struct sum_search *q, uint32_t e, uint32_t f, double sign, pir_vec3 x) {
     const struct faces *r = q->robot, *b = q->obstacle;
-    const pir_vec3 own = times(sign, b->way[e]), other = r->way[f];
-    const pir_vec3 n = cross(own, turned(q->forms, q->forms->count, other));
-    const pir_vec3 *row = q->forms->row[q->forms->count];
+    const int middle = q->forms->count;
+    const pir_vec3 own = times(sign, b->way[e]);
+    const pir_vec3 n = cross(own, r->turned_way[f * (middle + 1) + middle]);
+    const pir_vec3 *row = q->forms->row[middle];
     // the transposed turns a direction back
     const pir_vec3 back = {row[0].x * n.x + row[1].x * n.y + row[2].x * n.z,
                            row[0].y * n.x + row[1].y * n.y + row[2].y * n.z,
                            row[0].z * n.x + row[1].z * n.y + row[2].z * n.z};
-    const pir_vec3 o[2] = {b->v[b->edge[e][0]], farthest(b, n)};
-    const pir_vec3 p[2] = {r->v[r->edge[f][0]], farthest(r, times(-1, back))};
+    const uint32_t o[2] = {b->edge[e][0], farthest(b, n)}, p[2] = {r->edge[f][0], farthest(r, times(-1, back))};
     for (int i = 0; i < 4; i++)
-        if (edges_have(q, own, other, sum_of(x, -1, o[i & 1]), p[i >> 1]))
+        if (edges_have(q, own, f, sum_of(x, -1, b->v[o[i & 1]]), p[i >> 1]))
             return true;
     return false;
 }
@@ -374,15 +414,18 @@ static double move_outwards(struct sum_search *q, pir_vec3 along, double most, p
     return good;
 }
 
-/* Whether a box has a point. */
-static bool box_has(const double low[3], const double high[3], pir_vec3 x) {
-    return x.x >= low[0] && x.y >= low[1] && x.z >= low[2] && x.x <= high[0] && x.y <= high[1] && x.z <= high[2];
+/* How far a translation is beyond the bounds. */
+static double beyond(const struct sum_search *q, pir_vec3 x) {
+    const double *low = q->of->question->low, *high = q->of->question->high;
+    const double out[3] = {fmax(low[0] - x.x, x.x - high[0]), fmax(low[1] - x.y, x.y - high[1]),
+                           fmax(low[2] - x.z, x.z - high[2])};
+    return fmax(0, fmax(out[0], fmax(out[1], out[2])));
 }
 
 /* Adds points before the middles of facets; how many. */
 static size_t add_before(struct sum_search *q, const pir_polytope *made, double grid, pir_vec3 *x) {
     size_t count = 0;
-    uint32_t *corner = calloc(pir_polytope_vertex_count(made), sizeof *corner);
+    uint32_t *corner = take(q->of, pir_polytope_vertex_count(made), sizeof *corner);
     for (uint32_t f = 0; corner && f < pir_polytope_facet_count(made); f++) {
         const uint32_t size = pir_polytope_facet_size(made, f);
         pir_vec3 middle = {0, 0, 0};
@@ -390,7 +433,7 @@ static size_t add_before(struct sum_search *q, const pir_polytope *made, double 
         for (uint32_t k = 0; k < size; k++)
             middle = sum_of(middle, 1.0 / size, pir_polytope_vertex(made, corner[k]));
         const double most = OUTWARDS * q->robot->size;
-        if (!box_has(q->low, q->high, middle))
+        if (beyond(q, middle) > 0)
             continue;
         x[count] = middle;
         if (move_outwards(q, pir_polytope_normal(made, f), most, &x[count]) > most * GAIN) {
@@ -398,7 +441,6 @@ static size_t add_before(struct sum_search *q, const pir_polytope *made, double 
             count++;
         }
     }
-    free(corner);
     return count;
 }
 
@@ -414,43 +456,101 @@ static pir_status hull_of(pir_vec3 *x, size_t count, pir_polytope **ret_inner) {
     return PIR_OK;
 }
 
-/* Adds points before facets of a polytope, which is then another; whether it is. */
-static pir_status grow(struct sum_search *q, double grid, pir_polytope **made, bool *ret_grown) {
+/* Adds points before facets of a polytope, which is then another. */
+static pir_status grow(struct sum_search *q, double grid, pir_polytope **made) {
     const uint32_t old = pir_polytope_vertex_count(*made);
-    pir_vec3 *x = calloc((size_t)old + pir_polytope_facet_count(*made), sizeof *x);
-    *ret_grown = false;
+    pir_vec3 *x = take(q->of, (size_t)old + pir_polytope_facet_count(*made), sizeof *x);
     if (!x)
-        return PIR_ERR_MEMORY;
+        return q->of->space->status;
     for (uint32_t i = 0; i < old; i++)
         x[i] = pir_polytope_vertex(*made, i);
     const size_t added = add_before(q, *made, grid, x + old);
     pir_polytope *larger = NULL;
-    const pir_status status = added > 0 ? hull_of(x, old + added, &larger) : PIR_OK;
-    free(x);
+    const pir_status status = added > 0 ? hull_of(x, old + added, &larger) : q->of->space->status;
     if (larger) {
         pir_polytope_release(*made);
         *made = larger;
-        *ret_grown = true;
     }
     return status;
 }
 
-static pir_status sum_within(pir_polytope *back, pir_polytope *obstacle, pir_quat middle, struct sum_search *q,
+/* Corners of a simplex: one, and each time the one farthest from what those before span. */
+static void choose_simplex(const pir_vec3 *v, uint32_t count, pir_vec3 *rest, uint32_t chosen[4]) {
+    memcpy(rest, v, count * sizeof *v);
+    chosen[0] = 0;
+    for (uint32_t i = 0; i < count; i++)
+        rest[i] = sum_of(v[i], -1, v[0]);
+    for (int n = 1; n < 4; n++) {
+        uint32_t best = 0;
+        for (uint32_t i = 1; i < count; i++)
+            best = dot(rest[i], rest[i]) > dot(rest[best], rest[best]) ? i : best;
+        chosen[n] = best;
+        const pir_vec3 way = times(1 / sqrt(dot(rest[best], rest[best])), rest[best]);
+        for (uint32_t i = 0; i < count; i++)
+            rest[i] = sum_of(rest[i], -dot(rest[i], way), way);
+    }
+}
+
+/* The point that is farthest beyond facets of a polytope of few corners; none is where the count is returned. */
+static uint32_t farthest_beyond(const struct sum_search *q, const pir_polytope *made, const pir_vec3 *v,
+                                uint32_t count) {
+    uint32_t best = count;
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double weight = 1 / (1 + FAR_OUT * beyond(q, v[i]));
+        for (uint32_t f = 0; f < pir_polytope_facet_count(made); f++) {
+            uint32_t corner[PIR_INNER_CORNERS];
+            pir_polytope_facet(made, f, corner);
+            const pir_vec3 way = sum_of(v[i], -1, pir_polytope_vertex(made, corner[0]));
+            const double far = weight * dot(pir_polytope_normal(made, f), way);
+            best = far > most ? i : best;
+            most = fmax(most, far);
+        }
+    }
+    return best;
+}
+
+/* Leaves a polytope few corners: divisions cost as its facets. */
+static pir_status thin_out(struct sum_search *q, pir_polytope **made) {
+    const uint32_t count = pir_polytope_vertex_count(*made);
+    pir_vec3 *v = take(q->of, count, sizeof *v), *rest = take(q->of, count, sizeof *rest), x[PIR_INNER_CORNERS];
+    uint32_t chosen[PIR_INNER_CORNERS], now = 4;
+    if (!v || !rest)
+        return q->of->space->status;
+    for (uint32_t i = 0; i < count; i++)
+        v[i] = pir_polytope_vertex(*made, i);
+    choose_simplex(v, count, rest, chosen);
+    pir_polytope_release(*made);
+    *made = NULL;
+    for (pir_status status;; now++) {
+        for (uint32_t i = 0; i < now; i++)
+            x[i] = v[chosen[i]];
+        pir_polytope_release(*made);
+        status = hull_of(x, now, made);
+        if (!*made || now == PIR_INNER_CORNERS)
+            return status;
+        chosen[now] = farthest_beyond(q, *made, v, count);
+        if (chosen[now] == count)
+            return status;
+    }
+}
+
+static pir_status sum_within(pir_polytope *back, pir_polytope *obstacle, struct sum_search *q,
                              pir_polytope **ret_inner) {
     const double size = q->robot->size + q->obstacle->size, grid = ldexp(1, ilogb(size) - GRID_BITS);
     pir_sum *made = NULL;
     pir_mesh *mesh = NULL;
-    pir_status status = pir_sum_create(back, obstacle, middle, NULL, &made);
+    pir_status status = pir_sum_create(back, obstacle, q->of->middle, NULL, &made);
     if (status == PIR_OK)
         status = pir_sum_mesh(made, PIR_DOUBLE, &mesh);
     if (status == PIR_OK) {
-        pir_vec3 *x = calloc(pir_mesh_vertex_count(mesh), sizeof *x);
-        status = x ? hull_of(x, list_points(q, mesh, grid, x), ret_inner) : PIR_ERR_MEMORY;
-        free(x);
+        pir_vec3 *x = take(q->of, pir_mesh_vertex_count(mesh), sizeof *x);
+        status = x ? hull_of(x, list_points(q, mesh, grid, x), ret_inner) : q->of->space->status;
     }
-    bool is_grown = *ret_inner != NULL;
-    for (int round = 0; round < ROUNDS && is_grown && status == PIR_OK; round++)
-        status = grow(q, grid, ret_inner, &is_grown);
+    if (status == PIR_OK && *ret_inner)
+        status = grow(q, grid, ret_inner);
+    if (status == PIR_OK && *ret_inner)
+        status = thin_out(q, ret_inner);
     pir_mesh_destroy(mesh);
     pir_sum_destroy(made);
     return status;
@@ -467,57 +567,42 @@ static pir_quat middle_of(const pir_plan_turns *turns) {
 
 /* --- searches --- */
 
-struct pir_inner_search {
-    pir_turn_forms forms;
-    pir_quat middle;
-    const pir_rigid_question *question;
-    struct faces *robot, *obstacle; /* of all pieces */
-    struct sum_search *pair;
-};
+static pir_inner_search *new_search(const pir_rigid_question *question, pir_plan_space *space) {
+    pir_inner_search *s = pir_plan_new(space, 1, sizeof *s);
+    if (s)
+        *s = (pir_inner_search){.question = question, .space = space};
+    return s;
+}
 
-pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_plan_turns *turns,
+pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_plan_turns *turns, pir_plan_space *space,
                                  pir_inner_search **ret_search) {
     const uint32_t robots = question->robot->count, obstacles = question->wide->count;
-    pir_inner_search *s = calloc(1, sizeof *s);
-    *ret_search = s;
+    pir_inner_search *s = *ret_search = new_search(question, space);
     if (!s)
-        return PIR_ERR_MEMORY;
+        return space->status;
     s->forms = pir_turn_forms_of(turns);
     s->middle = middle_of(turns);
-    s->question = question;
-    s->robot = calloc(robots, sizeof *s->robot);
-    s->obstacle = calloc(obstacles, sizeof *s->obstacle);
-    s->pair = calloc((size_t)robots * obstacles, sizeof *s->pair);
-    bool good = s->robot && s->obstacle && s->pair;
+    s->robot = take(s, robots, sizeof *s->robot);
+    s->obstacle = take(s, obstacles, sizeof *s->obstacle);
+    s->pair = take(s, (size_t)robots * obstacles, sizeof *s->pair);
+    bool good = space->status == PIR_OK;
     for (uint32_t k = 0; k < robots && good; k++)
-        good = read_faces(question->robot->at[k], &s->robot[k]);
+        good = read_faces(s, question->robot->at[k], &s->robot[k]) && turn_faces(s, &s->robot[k]);
     for (uint32_t l = 0; l < obstacles && good; l++)
-        good = read_faces(question->wide->at[l], &s->obstacle[l]);
+        good = read_faces(s, question->wide->at[l], &s->obstacle[l]);
     for (uint32_t i = 0; i < robots * obstacles && good; i++) {
-        s->pair[i] = (struct sum_search){.forms = &s->forms,
-                                         .robot = &s->robot[i / obstacles],
-                                         .obstacle = &s->obstacle[i % obstacles],
-                                         .low = question->low,
-                                         .high = question->high};
+        s->pair[i] = (struct sum_search){
+            .of = s, .forms = &s->forms, .robot = &s->robot[i / obstacles], .obstacle = &s->obstacle[i % obstacles]};
         good = open_search(&s->pair[i]);
     }
-    return good ? PIR_OK : PIR_ERR_MEMORY;
+    return space->status;
 }
 
 void pir_inner_search_close(pir_inner_search *s) {
     if (!s)
         return;
-    const uint32_t robots = s->question->robot->count, obstacles = s->question->wide->count;
-    for (uint32_t i = 0; s->pair && i < robots * obstacles; i++)
-        finish_search(&s->pair[i]);
-    for (uint32_t k = 0; s->robot && k < robots; k++)
-        free_faces(&s->robot[k]);
-    for (uint32_t l = 0; s->obstacle && l < obstacles; l++)
-        free_faces(&s->obstacle[l]);
-    free(s->robot);
-    free(s->obstacle);
-    free(s->pair);
-    free(s);
+    free_from(s, NULL);
+    pir_plan_free(s->space, s, 1, sizeof *s);
 }
 
 double pir_inner_depth(const pir_inner_search *search, uint32_t pair, const double at[3]) {
@@ -527,7 +612,7 @@ double pir_inner_depth(const pir_inner_search *search, uint32_t pair, const doub
     const pir_vec3 x = {at[0], at[1], at[2]};
     double least = INFINITY;
     for (uint32_t a = 0; a < r->facets && least > 0; a++) {
-        const pir_vec3 n = s->back[a * (middle + 1) + middle];
+        const pir_vec3 n = r->back[a * (middle + 1) + middle];
         double most = -INFINITY;
         for (uint32_t o = 0; o < b->vertices; o++)
             most = fmax(most, dot(n, b->v[o]));
@@ -536,7 +621,7 @@ double pir_inner_depth(const pir_inner_search *search, uint32_t pair, const doub
     for (uint32_t j = 0; j < b->facets && least > 0; j++) {
         double most = -INFINITY;
         for (uint32_t p = 0; p < r->vertices; p++)
-            most = fmax(most, -dot(b->n[j], turned(s->forms, middle, r->v[p])));
+            most = fmax(most, -dot(b->n[j], r->turned_point[p * (middle + 1) + middle]));
         least = fmin(least, b->d[j] + most - dot(b->n[j], x));
     }
     return least;
@@ -548,12 +633,13 @@ bool pir_inner_has(pir_inner_search *search, uint32_t pair, const double at[3]) 
 
 pir_status pir_inner_sum_make(pir_inner_search *search, uint32_t pair, pir_polytope **ret_sum) {
     const uint32_t obstacles = search->question->wide->count;
+    struct block *last = search->first;
     pir_polytope *back = NULL;
     pir_status status = pir_polytope_reflect(search->question->robot->at[pair / obstacles], &back);
     *ret_sum = NULL;
     if (status == PIR_OK)
-        status = sum_within(back, search->question->wide->at[pair % obstacles], search->middle, &search->pair[pair],
-                            ret_sum);
+        status = sum_within(back, search->question->wide->at[pair % obstacles], &search->pair[pair], ret_sum);
+    free_from(search, last);
     pir_polytope_release(back);
     return status;
 }

@@ -17,7 +17,8 @@
  *
  * An inner sum is the hull of points: corners of S at the middle rotation, each moved inwards until it is in S(q)
  * throughout, then points before its facets, as far outwards as they are in S(q). Points keep half-spaces by 2^-22 of
- * the size of both pieces, and are rounded to 2^-24 of it.
+ * the size of both pieces, and are rounded to 2^-24 of it. Of them few are kept, those that are farthest out within the
+ * bounds, since a division costs as facets do.
  */
 #ifndef PIR_PLAN_RIGID_INNER_SUMS_H
 #define PIR_PLAN_RIGID_INNER_SUMS_H
@@ -25,13 +26,17 @@
 #include "plan/rigid/box_parts.h"
 #include "plan/turn_bodies.h"
 
+/* The most corners of an inner sum. */
+#define PIR_INNER_CORNERS 12
+
 /*
  * A search for all pairs of pieces over one box; a pair is the obstacle's number and that of the robot times how many
- * obstacles there are. The question is borrowed. To be closed also where it fails.
+ * obstacles there are. The question and the space, of which it takes its memory, are borrowed. To be
+ * closed also where it fails.
  */
 typedef struct pir_inner_search pir_inner_search;
 
-pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_plan_turns *turns,
+pir_status pir_inner_search_open(const pir_rigid_question *question, const pir_plan_turns *turns, pir_plan_space *space,
                                  pir_inner_search **ret_search);
 void pir_inner_search_close(pir_inner_search *search);
 

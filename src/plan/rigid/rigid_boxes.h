@@ -10,10 +10,10 @@
 
 #include "plan/rigid/rigid_plan.h"
 
-/* The boxes of level 1. */
+/* The first boxes. */
 void pir_rigid_boxes_begin(pir_rigid_job *job);
 
-/* Replaces a leaf by its eighths. */
+/* Replaces a leaf by its halves. */
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
 
 /* Makes the inner parts of all leaves that are new, and the links between them and others. */

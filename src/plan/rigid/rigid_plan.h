@@ -7,16 +7,15 @@
  * are joined unless they are proven to be apart. Where the ends are not connected, there is no path.
  *
  * A *hub* is a free place at the middle of a box. A box has those of the box that it is a part of, where the robot can
- * turn from one middle to the other on the spot, which outer pieces over the arc between them prove. Of boxes of level
- * 1, and of those that are doubted, the translations are divided for the robot at the middle; then each connected part
- * is a hub, joined with others by turns at translations that both have. Where the ends are connected through hubs there
- * is a path: translations at middles, and turns where the robot stands. Hubs stay when their box is divided, for what
- * they prove stays true.
+ * turn from one middle to the other on the spot, which outer pieces over the arc between them prove. Of the first
+ * boxes, and of cubes that are doubted, the translations are divided for the robot at the middle; then each connected
+ * part is a hub, joined with others by turns at translations that both have. Where the ends are connected through hubs
+ * there is a path: translations at middles, and turns where the robot stands. Hubs stay when their box is divided, for
+ * what they prove stays true.
  *
  * Else boxes are divided where that may decide. Free parts of boxes are nodes of a graph, of which hubs tell that some
  * can be reached from the start, others from the end. Nodes on shortest ways from the first to the second are doubted:
- * a path may lead through them, or they are too large. Their boxes are halved in all three coordinates, and only new
- * boxes are looked at.
+ * a path may lead through them, or they are too large. Their boxes are halved, and only new boxes are looked at.
  *
  * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
  * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.

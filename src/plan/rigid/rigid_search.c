@@ -161,7 +161,7 @@ static void list_doubted(pir_rigid_job *job) {
     job->listed = 0;
     // in the beginning all middles are looked at
     for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++)
-        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.level < PIR_ROTATION_LEVELS &&
+        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.halvings < PIR_ROTATION_HALVINGS &&
             pir_rigid_grow(job, (void **)&job->list, &job->list_room, job->listed + 1, sizeof *job->list))
             job->list[job->listed++] = i;
     free(is_doubted);
@@ -172,22 +172,19 @@ static uint32_t divide(pir_rigid_job *job) {
     uint32_t count = 0;
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
-        if (job->alive + 7 <= job->question->most_boxes) {
+        if (job->alive < job->question->most_boxes) {
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
     return count;
 }
 
-/*
- * Keeps of the list those boxes whose middles are of use, and are not known yet: where inner sums block nothing
- * nobody knows anything.
- */
-static uint32_t keep_useful(pir_rigid_job *job, uint32_t *kept) {
+/* Keeps of the list those boxes whose middles are to be known, and are not yet: cubes. */
+static uint32_t keep_unknown(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (!leaf->is_full && (leaf->box.level == 1 || leaf->inner.nodes > 1))
+        if (!leaf->is_full && leaf->box.halvings % 3 == 0)
             kept[count++] = job->list[i];
     }
     return count;
@@ -201,7 +198,7 @@ static void look_at_middles(pir_rigid_job *job) {
         job->status = PIR_ERR_MEMORY;
         return;
     }
-    job->listed = keep_useful(job, kept);
+    job->listed = keep_unknown(job, kept);
     job->list = kept;
     pir_rigid_boxes_fill(job);
     if (job->status == PIR_OK)

@@ -83,11 +83,11 @@ static pir_plan_cell cell_of(struct widener *w, const pir_plan_sum *hull, const 
 
 /* A polytope within a cell, proven to be in the pieces; NULL where it is not. */
 static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_polytope **ret_made) {
-    pir_vec3 *x = calloc(cell->points + 1, sizeof *x), middle = {0, 0, 0};
+    pir_vec3 *x = pir_plan_new(&w->space, cell->points, sizeof *x), middle = {0, 0, 0};
     pir_polytope *made = NULL;
     *ret_made = NULL;
     if (!x)
-        return PIR_ERR_MEMORY;
+        return w->space.status;
     for (uint32_t v = 0; v < cell->points; v++) {
         const double *at = pir_plan_point_exact(&w->space, cell->point[v])->at;
         x[v] = (pir_vec3){at[0], at[1], at[2]};
@@ -99,7 +99,7 @@ static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_p
         x[v] = (pir_vec3){x[v].x + SHRUNK * (middle.x - x[v].x), x[v].y + SHRUNK * (middle.y - x[v].y),
                           x[v].z + SHRUNK * (middle.z - x[v].z)};
     pir_status status = pir_polytope_create(x, cell->points, NULL, &made);
-    free(x);
+    pir_plan_free(&w->space, x, cell->points, sizeof *x);
     if (status == PIR_OK && pir_polytope_dimension(made) == 3) {
         const uint32_t number = w->sums.count;
         status = pir_plan_sums_add(&w->space, made, 0, 0, &w->sums);
@@ -120,8 +120,8 @@ static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_p
 /* The widest piece that a piece of a body with a hull makes, or the piece. */
 static pir_status widen(struct widener *w, uint32_t piece, uint32_t hull, pir_polytope *own, pir_polytope **ret_wide) {
     const uint32_t halves = w->sums.sum[piece].halves;
-    bool *left_out = calloc(halves, sizeof *left_out), any = false;
-    pir_status status = left_out ? PIR_OK : PIR_ERR_MEMORY;
+    bool *left_out = pir_plan_new(&w->space, halves, sizeof *left_out), any = false;
+    pir_status status = w->space.status;
     for (uint32_t h = 0; h < halves && status == PIR_OK; h++) {
         left_out[h] = true;
         pir_plan_cell cell = cell_of(w, &w->sums.sum[hull], &w->sums.sum[piece], left_out);
@@ -138,16 +138,17 @@ static pir_status widen(struct widener *w, uint32_t piece, uint32_t hull, pir_po
     }
     if (status == PIR_OK && !*ret_wide)
         *ret_wide = pir_polytope_retain(own);
-    free(left_out);
+    pir_plan_free(&w->space, left_out, halves, sizeof *left_out);
     return status;
 }
 
 /* Whether a polytope is in another, nearly. */
-static bool is_in(const pir_polytope *a, const pir_polytope *b) {
+static bool is_in(struct widener *w, const pir_polytope *a, const pir_polytope *b) {
     double size = 0;
-    uint32_t *corner = calloc(pir_polytope_vertex_count(b), sizeof *corner);
+    const uint32_t corners = pir_polytope_vertex_count(b);
+    uint32_t *corner = pir_plan_new(&w->space, corners, sizeof *corner);
     bool has = corner != NULL;
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(b); v++) {
+    for (uint32_t v = 0; v < corners; v++) {
         const pir_vec3 x = pir_polytope_vertex(b, v);
         size = fmax(size, fabs(x.x) + fabs(x.y) + fabs(x.z));
     }
@@ -160,7 +161,7 @@ static bool is_in(const pir_polytope *a, const pir_polytope *b) {
             has = n.x * (x.x - on.x) + n.y * (x.y - on.y) + n.z * (x.z - on.z) <= SAME * size;
         }
     }
-    free(corner);
+    pir_plan_free(&w->space, corner, corners, sizeof *corner);
     return has;
 }
 
@@ -169,16 +170,16 @@ static pir_status add_hull(struct widener *w, const pir_plan_pieces *pieces, uin
     size_t room = 0, count = 0;
     for (uint32_t i = 0; i < pieces->count; i++)
         room += pir_polytope_vertex_count(pieces->at[i]);
-    pir_vec3 *x = calloc(room + 1, sizeof *x);
+    pir_vec3 *x = pir_plan_new(&w->space, room, sizeof *x);
     pir_polytope *hull = NULL;
     for (uint32_t i = 0; i < pieces->count && x; i++)
         for (uint32_t v = 0; v < pir_polytope_vertex_count(pieces->at[i]) && pieces->body[i] == body; v++)
             x[count++] = pir_polytope_vertex(pieces->at[i], v);
-    pir_status status = x ? pir_polytope_create(x, count, NULL, &hull) : PIR_ERR_MEMORY;
+    pir_status status = x ? pir_polytope_create(x, count, NULL, &hull) : w->space.status;
     if (status == PIR_OK)
         status = pir_plan_sums_add(&w->space, hull, 0, 0, &w->sums);
     pir_polytope_release(hull);
-    free(x);
+    pir_plan_free(&w->space, x, room, sizeof *x);
     return status;
 }
 
@@ -198,7 +199,7 @@ static pir_status make_all(struct widener *w, const pir_plan_pieces *pieces, pir
             return status;
         bool is_told = false;
         for (uint32_t k = 0; k < wide->count && !is_told; k++)
-            is_told = is_in(made, wide->at[k]);
+            is_told = is_in(w, made, wide->at[k]);
         if (is_told) {
             pir_polytope_release(made);
         } else {
@@ -206,7 +207,7 @@ static pir_status make_all(struct widener *w, const pir_plan_pieces *pieces, pir
             wide->at[wide->count++] = made;
         }
     }
-    return status;
+    return status == PIR_OK ? w->space.status : status;
 }
 
 pir_status pir_wide_pieces_make(const pir_plan_pieces *pieces, size_t memory, pir_plan_pieces *ret_wide) {
