@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Bodies that slide without friction over flat floors, beside engines in their own worlds: mesh_sliding.csv has a line
- * for each floor, body, speed and engine: the contacts that pushed, those whose normal is not the floor's by more than
- * 1e-3, the greatest part of the speed that was lost, and how high the body hopped. Floors and bodies are those of
- * tests/mesh/sliding_floors.h, and 1,800 prisms as convex hulls besides.
+ * for each floor, body, speed and engine: the contacts that pushed, those whose normal is off the floor's by more than
+ * 1e-9 and 1e-3, the greatest part of the speed that was lost, and how high the body hopped. Floors and bodies are
+ * those of tests/mesh/sliding_floors.h, and 1,800 prisms as convex hulls besides.
  *
  *     bench_sliding FOLDER
  */
@@ -150,7 +150,7 @@ static void our_slide(const sliding_floor *from, const slide_floor *floor, slide
     check(pir_workspace_create(NULL, &o.workspace));
     if (floor->hulls)
         make_scene(&o, floor, body);
-    *ret_result = (slide_result){0, 0, 0, 0};
+    *ret_result = (slide_result){0};
     body->velocity = (pir_vec3){speed, 0.05 * speed, 0};
     for (uint32_t frame = 0; frame < frames; frame++) {
         pir_surface_contact contacts[CONTACTS];
@@ -158,12 +158,9 @@ static void our_slide(const sliding_floor *from, const slide_floor *floor, slide
         const size_t count =
             floor->hulls ? contacts_of_scene(&o, body, contacts) : contacts_of_meshes(&o, body, contacts);
         for (size_t i = 0; i < count; i++)
-            ret_result->ghosts += hypot(contacts[i].normal.x, contacts[i].normal.y) > 1e-3;
-        ret_result->contacts += count;
+            slide_count(ret_result, contacts[i].normal.x, contacts[i].normal.y, 1);
         slider_step(body, contacts, count, GAP);
-        const pir_vec3 v = body->velocity;
-        ret_result->lost = fmax(ret_result->lost, fmax(fabs(v.x - speed), fabs(v.y - 0.05 * speed)) / speed);
-        ret_result->hop = fmax(ret_result->hop, body->pose.translation.z - start);
+        slide_note(ret_result, body->velocity.x, body->velocity.y, speed, body->pose.translation.z - start);
     }
     pir_scene_destroy(o.scene);
     pir_workspace_destroy(o.workspace);
@@ -171,12 +168,29 @@ static void our_slide(const sliding_floor *from, const slide_floor *floor, slide
 
 /* --- the table --- */
 
+static const struct {
+    const char *name;
+    slide_run *slide;
+} peers[] = {
+#ifdef PIR_HAVE_BOX3D
+    {"box3d", box3d_slide},
+#endif
+#ifdef PIR_HAVE_BULLET
+    {"Bullet", bullet_slide},
+#endif
+#ifdef PIR_HAVE_JOLT
+    {"Jolt", jolt_slide},
+#endif
+    {NULL, NULL},
+};
+
 static void print(FILE *csv, const char *engine, const char *floor, const char *body, double speed,
                   const slide_result *r) {
-    fprintf(csv, "%s,%s,%s,%g,%llu,%llu,%.3g,%.3g\n", floor, body, engine, speed, (unsigned long long)r->contacts,
-            (unsigned long long)r->ghosts, r->lost, r->hop);
-    printf("%s on %s at %g m/s, %s: %llu of %llu contacts are ghosts, speed off by %.2g, hop %.2g\n", body, floor,
-           speed, engine, (unsigned long long)r->ghosts, (unsigned long long)r->contacts, r->lost, r->hop);
+    const unsigned long long contacts = r->contacts, off = r->off, ghosts = r->ghosts;
+    fprintf(csv, "%s,%s,%s,%g,%llu,%llu,%llu,%.3g,%.3g\n", floor, body, engine, speed, contacts, off, ghosts, r->lost,
+            r->hop);
+    printf("%s on %s at %g m/s, %s: %llu of %llu contacts are ghosts, %llu off by 1e-9, speed off by %.2g, hop %.2g\n",
+           body, floor, speed, engine, ghosts, contacts, off, r->lost, r->hop);
 }
 
 static void run(FILE *csv, int kind, uint32_t frames) {
@@ -192,10 +206,10 @@ static void run(FILE *csv, int kind, uint32_t frames) {
             slider_make(&body, shape, GAP);
             body.pose.translation.x = 0.13;
             body.pose.translation.y = 0.07;
-#ifdef PIR_HAVE_BOX3D
-            box3d_slide(&floor, &body, speeds[i], frames, &result);
-            print(csv, "box3d", name, body.name, speeds[i], &result);
-#endif
+            for (int k = 0; peers[k].slide; k++) {
+                peers[k].slide(&floor, &body, speeds[i], frames, &result);
+                print(csv, peers[k].name, name, body.name, speeds[i], &result);
+            }
             our_slide(&from, &floor, &body, speeds[i], frames, &result);
             print(csv, "Pirouette", name, body.name, speeds[i], &result);
             slider_clear(&body);
@@ -211,7 +225,7 @@ int main(int argc, char **argv) {
     }
     const struct results where = results_new(argv[1]);
     FILE *csv = results_open(&where, "mesh_sliding.csv");
-    fprintf(csv, "floor,body,engine,speed,contacts,ghosts,lost,hop\n");
+    fprintf(csv, "floor,body,engine,speed,contacts,off,ghosts,lost,hop\n");
     for (int kind = 0; kind <= HULLS; kind++)
         run(csv, kind, results_count(FRAMES));
     results_close(csv, "mesh_sliding.csv");

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Box3d: meshes with welded vertices and known edges, as it has them at its best; four substeps a frame. */
-#include <math.h>
 #include <stdlib.h>
 
 #include <box3d/box3d.h>
@@ -95,13 +94,10 @@ static void count_contacts(b3BodyId body, slide_result *result) {
     for (int i = 0; i < count; i++)
         for (int m = 0; m < contact[i].manifoldCount; m++) {
             const b3Manifold *manifold = &contact[i].manifolds[m];
-            const double off =
-                sqrt((double)manifold->normal.x * manifold->normal.x + (double)manifold->normal.y * manifold->normal.y);
-            for (int k = 0; k < manifold->pointCount; k++) {
-                const bool pushes = manifold->points[k].totalNormalImpulse > 0;
-                result->contacts += pushes;
-                result->ghosts += pushes && off > 1e-3;
-            }
+            uint64_t pushing = 0;
+            for (int k = 0; k < manifold->pointCount; k++)
+                pushing += manifold->points[k].totalNormalImpulse > 0;
+            slide_count(result, manifold->normal.x, manifold->normal.y, pushing);
         }
 }
 
@@ -112,7 +108,7 @@ void box3d_slide(const slide_floor *floor, const slider *body, double speed, uin
     const b3WorldId world = b3CreateWorld(&def);
     b3MeshData **mesh = calloc(floor->count, sizeof(void *));
     const double start = body->pose.translation.z;
-    *ret_result = (slide_result){0, 0, 0, 0};
+    *ret_result = (slide_result){0};
     for (uint32_t i = 0; mesh && i < floor->count; i++)
         add_part(world, &floor->part[i], floor->hulls, &mesh[i]);
     const b3BodyId id = add_slider(world, body, speed);
@@ -124,8 +120,7 @@ void box3d_slide(const slide_floor *floor, const slider *body, double speed, uin
         b3World_Step(world, 1.f / 60, 4);
         count_contacts(id, ret_result);
         const b3Vec3 v = b3Body_GetLinearVelocity(id);
-        ret_result->lost = fmax(ret_result->lost, fmax(fabs(v.x - speed), fabs(v.y - 0.05 * speed)) / speed);
-        ret_result->hop = fmax(ret_result->hop, b3Body_GetPosition(id).z - start);
+        slide_note(ret_result, v.x, v.y, speed, b3Body_GetPosition(id).z - start);
     }
     b3DestroyWorld(world);
     for (uint32_t i = 0; mesh && i < floor->count; i++)

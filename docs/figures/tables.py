@@ -203,12 +203,14 @@ def mesh_sliding(r):
         groups.setdefault((row["floor"], row["body"], row["engine"]), []).append(row)
     cells = {}
     for (floor, body, engine), of in groups.items():
-        ghosts, contacts = (sum(int(row[key]) for row in of) for key in ("ghosts", "contacts"))
+        key = "off" if engine == "Pirouette" else "ghosts"
+        off, contacts = (sum(int(row[column]) for row in of) for column in (key, "contacts"))
         lost = max(float(row["lost"]) for row in of)
-        cells.setdefault((floor, body), {})[engine] = [f"{count(ghosts)} of {count(contacts)}",
-                                                       f"{two(100 * lost)} %" if lost > 1e-6 else "0"]
-    rows = [[*key, *of["box3d"], *of["Pirouette"]] for key, of in cells.items()]
-    return markdown(["floor", "body", ">box3d: ghosts", ">speed off", ">Pirouette: ghosts", ">speed off"], rows)
+        cells.setdefault((floor, body), {})[engine] = (f"{count(off)} of {count(contacts)}, "
+                                                       + (f"{two(100 * lost)} %" if lost > 1e-6 else "0"))
+    engines = ("box3d", "Bullet", "Jolt", "Pirouette")
+    rows = [[*key, *(of[engine] for engine in engines)] for key, of in cells.items()]
+    return markdown(["floor", "body", *(f">{engine}" for engine in engines)], rows)
 
 
 def terrain_rows(table):
