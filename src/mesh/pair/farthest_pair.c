@@ -87,7 +87,7 @@ static double half_along(const pir_node_lanes *l, int i, pir_vec3 w) {
 /* At least the distance of any two points of two items. */
 static double most_of(const pir_trimesh_pair *pair, const pir_node_lanes *p, int i, const pir_node_lanes *q, int j) {
     pir_vec3 between = pir_vec_sub(pir_mesh_frame_apply(&pair->frame, middle_of(p, i)), middle_of(q, j));
-    double radii = sqrt((double)pir_lane_size(p, i)) + sqrt((double)pir_lane_size(q, j));
+    double radii = sqrt((double)pir_lanes_size(p)[i]) + sqrt((double)pir_lanes_size(q)[j]);
     double along = half_along(p, i, pir_mat_apply_transposed(&pair->frame.r, between)) + half_along(q, j, between);
     double length = pir_vec_length(between), square = length * length + 2 * along + radii * radii;
     double most = fmin(sqrt(square), length + radii);
@@ -96,8 +96,8 @@ static double most_of(const pir_trimesh_pair *pair, const pir_node_lanes *p, int
 
 static struct farthest_task task_of(const pir_trimesh_pair *pair, pir_mesh_item p, pir_mesh_item q) {
     pir_node_lanes a, b;
-    pir_lane_set(&a, 0, pair->mesh[0], p);
-    pir_lane_set(&b, 0, pair->mesh[1], q);
+    pir_node_lanes_set_one(&a, pair->mesh[0], p);
+    pir_node_lanes_set_one(&b, pair->mesh[1], q);
     return (struct farthest_task){p, q, most_of(pair, &a, 0, &b, 0)};
 }
 
@@ -118,11 +118,9 @@ static uint32_t divide(struct farthest_search *f, struct farthest_task *stack, u
                        const struct farthest_task *task) {
     const pir_trimesh_pair *pair = f->pair;
     uint32_t child[2] = {pir_item_child(pair->mesh[0], task->p), pir_item_child(pair->mesh[1], task->q)};
-    pir_node_lanes p, q;
-    pir_lane_set(&p, 0, pair->mesh[0], task->p);
-    pir_lane_set(&q, 0, pair->mesh[1], task->q);
     bool of_q =
-        pir_mesh_is_leaf(child[0]) || (!pir_mesh_is_leaf(child[1]) && pir_lane_size(&q, 0) > pir_lane_size(&p, 0));
+        pir_mesh_is_leaf(child[0]) ||
+        (!pir_mesh_is_leaf(child[1]) && pir_item_size(pair->mesh[1], task->q) > pir_item_size(pair->mesh[0], task->p));
     uint32_t node = of_q ? child[1] : child[0], first = used;
     for (uint32_t i = 0; i < pair->mesh[of_q]->tree.node[node].count; i++) {
         pir_mesh_item item = node * PIR_MESH_WIDTH + i;

@@ -7,6 +7,9 @@
  */
 #include "mesh/pair/mesh_front.h"
 
+#include <stddef.h>
+#include <string.h>
+
 #define LOSS 0x1p-22
 
 void pir_mesh_front_finish(pir_mesh_front *front, const pir_allocator *allocator) {
@@ -74,15 +77,6 @@ void pir_mesh_front_renew(pir_mesh_front *front, uint32_t i, float bound) {
     front->key[i] = (float)(key - LOSS * fabs(key));
 }
 
-float pir_mesh_front_along(const pir_mesh_front *front, const pir_float_frame *f, uint32_t i) {
-    const pir_front_entry *e = &front->entry[i];
-    float along = -e->taken - e->radius * ((float)front->turn * (1 + (float)LOSS) - e->made) - f->error;
-    for (int k = 0; k < 3; k++)
-        along +=
-            e->n[k] * (f->r[k][0] * e->middle[0] + f->r[k][1] * e->middle[1] + f->r[k][2] * e->middle[2] + f->t[k]);
-    return along;
-}
-
 bool pir_mesh_front_add(pir_mesh_front *front, const pir_allocator *allocator, const pir_front_entry *entry,
                         float reach, float bound) {
     if (front->count == front->room && !grow(front, allocator))
@@ -104,10 +98,67 @@ uint32_t pir_mesh_front_expired(pir_mesh_front *front, double most) {
     // what is compared is off by less than 2^-21 of what enters
     double largest = most + front->path;
     float path = (float)(largest + 4 * LOSS * largest), turn = (float)(front->turn * (1 + 4 * LOSS));
-    uint32_t count = 0;
-    for (uint32_t i = front->count; i-- > 0;) {
-        front->expired[count] = i;
-        count += front->key[i] <= path + front->reach[i] * turn;
+    uint32_t count = 0, i = front->count;
+    for (; i % PIR_NODE_LANES != 0; i--) {
+        front->expired[count] = i - 1;
+        count += front->key[i - 1] <= path + front->reach[i - 1] * turn;
+    }
+    for (; i > 0; i -= PIR_NODE_LANES) {
+        pir_node_float4 key, reach;
+        memcpy(&key, front->key + i - PIR_NODE_LANES, sizeof key);
+        memcpy(&reach, front->reach + i - PIR_NODE_LANES, sizeof reach);
+        const pir_int4 is = key <= path + reach * turn;
+        for (int lane = PIR_NODE_LANES - 1; lane >= 0; lane--) {
+            front->expired[count] = i - PIR_NODE_LANES + (uint32_t)lane;
+            count += (uint32_t)-is[lane];
+        }
     }
     return count;
+}
+
+/* Four floats of each of four entries, by lanes. */
+static void read_lanes(const pir_mesh_front *front, const uint32_t which[PIR_NODE_LANES], size_t offset,
+                       pir_node_float4 ret_lanes[PIR_NODE_LANES]) {
+    for (int i = 0; i < PIR_NODE_LANES; i++)
+        memcpy(&ret_lanes[i], (const char *)&front->entry[which[i]] + offset, sizeof ret_lanes[i]);
+    pir_lanes_transpose(ret_lanes);
+}
+
+/* The bounds that the directions of four entries still prove. */
+static pir_node_float4 bounds_along(const pir_mesh_front *front, const pir_float_frame *f,
+                                    const uint32_t which[PIR_NODE_LANES]) {
+    pir_node_float4 n[4], middle[4]; // with `taken` and `radius`
+    read_lanes(front, which, offsetof(pir_front_entry, n), n);
+    read_lanes(front, which, offsetof(pir_front_entry, middle), middle);
+    const pir_front_entry *e = front->entry;
+    const pir_node_float4 made = {e[which[0]].made, e[which[1]].made, e[which[2]].made, e[which[3]].made};
+    pir_node_float4 along = -n[3] - middle[3] * ((float)front->turn * (1 + (float)LOSS) - made) - f->error;
+    for (int k = 0; k < 3; k++)
+        along += n[k] * (f->r[k][0] * middle[0] + f->r[k][1] * middle[1] + f->r[k][2] * middle[2] + f->t[k]);
+    return along;
+}
+
+uint32_t pir_mesh_front_renew_along(pir_mesh_front *front, const pir_float_frame *f, uint32_t count, float most) {
+    const float path = (float)front->path, turn = (float)front->turn;
+    uint32_t *list = front->expired, left = 0;
+    for (uint32_t at = 0; at < count; at += PIR_NODE_LANES) {
+        const uint32_t lanes = count - at < PIR_NODE_LANES ? count - at : PIR_NODE_LANES;
+        uint32_t which[PIR_NODE_LANES];
+        for (uint32_t i = 0; i < PIR_NODE_LANES; i++)
+            which[i] = list[at + (i < lanes ? i : 0)];
+        const pir_node_float4 bound = bounds_along(front, f, which);
+        const pir_node_float4 reach = {front->reach[which[0]], front->reach[which[1]], front->reach[which[2]],
+                                       front->reach[which[3]]};
+        // six roundings of 2^-24 of what enters
+        const pir_node_float4 moved = path + reach * turn;
+        const pir_node_float4 size = (pir_node_float4)((pir_int4)bound & 0x7fffffff) + moved;
+        const pir_node_float4 key = bound + moved - 2 * (float)LOSS * size;
+        const pir_int4 is_far = bound > most;
+        for (uint32_t i = 0; i < lanes; i++) {
+            front->key[which[i]] = key[i];
+            list[left] = which[i];
+            left += (uint32_t)(1 + is_far[i]);
+        }
+    }
+    return left;
 }

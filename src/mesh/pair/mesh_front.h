@@ -15,9 +15,9 @@
  */
 typedef struct pir_front_entry {
     pir_mesh_item p, q;
-    float n[3]; /* the direction that proved it */
+    float n[3], taken; /* n is the direction that proved it; four floats that are read at once */
     float middle[3], radius;
-    float taken, made;
+    float made;
 } pir_front_entry;
 
 typedef struct pir_mesh_front {
@@ -46,10 +46,13 @@ void pir_mesh_front_renew(pir_mesh_front *front, uint32_t i, float bound);
 /* Takes an entry out; the last one takes its place. */
 void pir_mesh_front_drop(pir_mesh_front *front, uint32_t i);
 
-/* The bound that the direction of an entry still proves. */
-float pir_mesh_front_along(const pir_mesh_front *front, const pir_float_frame *frame, uint32_t i);
-
 /* Lists entries, from the last to the first, that may be apart by no more than `most`; how many they are. */
 uint32_t pir_mesh_front_expired(pir_mesh_front *front, double most);
+
+/*
+ * Renews all that are listed, by what their directions still prove. Those that are apart by no more than `most` stay in
+ * the list; how many they are.
+ */
+uint32_t pir_mesh_front_renew_along(pir_mesh_front *front, const pir_float_frame *frame, uint32_t count, float most);
 
 #endif

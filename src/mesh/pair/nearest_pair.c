@@ -65,21 +65,29 @@ static bool are_leaves(const pir_trimesh_pair *pair, const pir_front_entry *entr
 
 /* --- leaves --- */
 
-/* Notes what the direction of an entry proves: that its items are apart by `gap` along it. */
-static void note(const pir_trimesh_pair *pair, pir_front_entry *entry, const pir_node_lanes *p, int lane, float gap) {
+/* Notes in entries the directions of the first lanes, and what these prove: that items are apart by a bound along n. */
+static void note(const pir_trimesh_pair *pair, pir_front_entry *const *entries, int count, const pir_node_lanes *p,
+                 const pir_node_axes *axes) {
     const pir_float_frame *f = &pair->floats;
-    entry->taken = -gap;
-    entry->radius = sqrtf(pir_lane_size(p, lane)) * (1 + 0x1p-20f);
-    entry->made = (float)pair->front.turn;
+    const float made = (float)pair->front.turn;
+    pir_node_float4 taken = -axes->bound, radius = pir_lanes_root(pir_lanes_size(p)) * (1 + 0x1p-20f);
     for (int k = 0; k < 3; k++)
-        entry->middle[k] = p->middle[k][lane];
-    for (int k = 0; k < 3; k++)
-        entry->taken += entry->n[k] * (f->r[k][0] * entry->middle[0] + f->r[k][1] * entry->middle[1] +
-                                       f->r[k][2] * entry->middle[2] + f->t[k]);
+        taken +=
+            axes->n[k] * (f->r[k][0] * p->middle[0] + f->r[k][1] * p->middle[1] + f->r[k][2] * p->middle[2] + f->t[k]);
+    for (int i = 0; i < count; i++) {
+        pir_front_entry *entry = entries[i];
+        for (int k = 0; k < 3; k++) {
+            entry->n[k] = axes->n[k][i];
+            entry->middle[k] = p->middle[k][i];
+        }
+        entry->radius = radius[i];
+        entry->taken = taken[i];
+        entry->made = made;
+    }
 }
 
-static bool keep(pir_trimesh_pair *pair, const pir_front_entry *entry, const pir_node_lanes *p, int lane, float bound) {
-    return pir_mesh_front_add(&pair->front, &pair->allocator, entry, pir_lane_reach(&pair->floats, p, lane), bound);
+static bool keep(pir_trimesh_pair *pair, const pir_front_entry *entry, float reach, float bound) {
+    return pir_mesh_front_add(&pair->front, &pair->allocator, entry, reach, bound);
 }
 
 /* Looks at the triangles of two leaves; the lower bound that they leave, and in the entry its direction. */
@@ -88,12 +96,11 @@ static float look_at_triangles(pir_trimesh_pair *pair, pir_front_entry *entry, c
     pir_vec3 n = {(double)entry->n[0], (double)entry->n[1], (double)entry->n[2]};
     double gap, low = pir_leaf_pair_consider(&pair->best, &pair->frame, leaf, &n, &gap, &pair->counts);
     double length = sqrt(pir_vec_dot(n, n));
-    if (length > 0) {
-        entry->n[0] = (float)(n.x / length);
-        entry->n[1] = (float)(n.y / length);
-        entry->n[2] = (float)(n.z / length);
-    }
-    note(pair, entry, p, 0, pir_float_under(gap));
+    pir_node_axes axes = {.bound = {pir_float_under(gap)}};
+    const double along[3] = {n.x, n.y, n.z};
+    for (int k = 0; k < 3; k++)
+        axes.n[k][0] = length > 0 ? (float)(along[k] / length) : entry->n[k];
+    note(pair, &entry, 1, p, &axes);
     pair->looks++;
     return pir_float_under(low < 0x1p62 ? low : 0x1p62);
 }
@@ -121,31 +128,23 @@ static bool break_ties(pir_trimesh_pair *pair) {
 static int set_lanes(const pir_trimesh_pair *pair, int side, pir_mesh_item item, bool divide,
                      pir_mesh_item ret_items[PIR_NODE_LANES], pir_node_lanes *ret_lanes) {
     const pir_trimesh *mesh = pair->mesh[side];
-    if (!divide) {
-        pir_node_lanes one;
-        pir_lane_set(&one, 0, mesh, item);
-        pir_node_lanes_repeat(ret_lanes, &one, 0);
-        for (int i = 0; i < PIR_NODE_LANES; i++)
-            ret_items[i] = item;
-        return 1;
-    }
     uint32_t node = pir_item_child(mesh, item);
-    pir_node_lanes_set_node(ret_lanes, mesh, node);
     for (int i = 0; i < PIR_NODE_LANES; i++)
-        ret_items[i] = node * PIR_MESH_WIDTH + (uint32_t)i;
-    return mesh->tree.node[node].count;
+        ret_items[i] = divide ? node * PIR_MESH_WIDTH + (uint32_t)i : item;
+    if (divide)
+        pir_node_lanes_set_node(ret_lanes, mesh, node);
+    else
+        pir_node_lanes_set_one(ret_lanes, mesh, item);
+    return divide ? mesh->tree.node[node].count : 1;
 }
 
 /* Which of two items is divided: the larger one, unless it is a leaf. */
 static int divided_side(const pir_trimesh_pair *pair, const pir_front_entry *entry) {
-    pir_node_lanes p, q;
     if (pir_mesh_is_leaf(child_of(pair, 0, entry->p)))
         return 1;
     if (pir_mesh_is_leaf(child_of(pair, 1, entry->q)))
         return 0;
-    pir_lane_set(&p, 0, pair->mesh[0], entry->p);
-    pir_lane_set(&q, 0, pair->mesh[1], entry->q);
-    return pir_lane_size(&p, 0) >= pir_lane_size(&q, 0) ? 0 : 1;
+    return pir_item_size(pair->mesh[0], entry->p) >= pir_item_size(pair->mesh[1], entry->q) ? 0 : 1;
 }
 
 /* Puts a task where it belongs among those from `first` on: what is nearest is looked at first. */
@@ -170,17 +169,20 @@ static bool sort_lanes(pir_trimesh_pair *pair, struct nearest_tasks *tasks, cons
         all_far = all_far && is_far(pair, (double)axes.bound[i]);
     if (!all_far)
         pir_bound_by_nodes(&pair->floats, p, q, &axes);
+    const pir_node_float4 reach = pir_lanes_reach(&pair->floats, p);
     uint32_t first = tasks->used;
-    for (int i = 0; i < count; i++) {
-        struct nearest_task task = {.entry = entries[i], .bound = axes.bound[i]};
-        for (int k = 0; k < 3; k++)
-            task.entry.n[k] = axes.n[k][i];
-        note(pair, &task.entry, p, i, task.bound);
-        if (!is_far(pair, (double)task.bound))
-            push(tasks, first, &task);
-        else if (!keep(pair, &task.entry, p, i, task.bound))
-            return false;
+    struct nearest_task task[PIR_NODE_LANES];
+    pir_front_entry *noted[PIR_NODE_LANES];
+    for (int i = 0; i < PIR_NODE_LANES; i++) {
+        task[i] = (struct nearest_task){entries[i], axes.bound[i]};
+        noted[i] = &task[i].entry;
     }
+    note(pair, noted, count, p, &axes);
+    for (int i = 0; i < count; i++)
+        if (!is_far(pair, (double)task[i].bound))
+            push(tasks, first, &task[i]);
+        else if (!keep(pair, &task[i].entry, reach[i], task[i].bound))
+            return false;
     return true;
 }
 
@@ -208,12 +210,12 @@ static bool work(pir_trimesh_pair *pair, struct nearest_tasks *tasks) {
         bool is_over = is_far(pair, (double)task.bound) || is_settled(pair, &task.entry);
         if (is_over || are_leaves(pair, &task.entry)) {
             pir_node_lanes p;
-            pir_lane_set(&p, 0, pair->mesh[0], task.entry.p);
+            pir_node_lanes_set_one(&p, pair->mesh[0], task.entry.p);
             // items that are settled are as far apart as the best
             float bound = is_far(pair, (double)task.bound) ? task.bound
                           : is_over                        ? pir_float_under(pair->best.span.low)
                                                            : look_at_triangles(pair, &task.entry, &p);
-            done = keep(pair, &task.entry, &p, 0, bound) && break_ties(pair);
+            done = keep(pair, &task.entry, pir_lanes_reach(&pair->floats, &p)[0], bound) && break_ties(pair);
         } else {
             done = divide(pair, tasks, &task.entry);
         }
@@ -229,15 +231,14 @@ static bool rebuild_once(pir_trimesh_pair *pair) {
     struct nearest_tasks tasks;
     tasks.used = 0; // the rest is written before it is read
     pair->front.count = 0;
-    pir_node_lanes p, q, one;
+    pir_node_lanes p, q;
     pir_node_lanes_set_node(&p, pair->mesh[0], 0);
-    pir_node_lanes_set_node(&one, pair->mesh[1], 0);
     int of_p = pair->mesh[0]->tree.node[0].count, of_q = pair->mesh[1]->tree.node[0].count;
     for (int j = 0; j < of_q; j++) {
         pir_front_entry entries[PIR_NODE_LANES];
         for (int i = 0; i < PIR_NODE_LANES; i++)
             entries[i] = (pir_front_entry){.p = (uint32_t)i, .q = (uint32_t)j, .n = {1, 0, 0}};
-        pir_node_lanes_repeat(&q, &one, j);
+        pir_node_lanes_set_one(&q, pair->mesh[1], (uint32_t)j);
         if (!sort_lanes(pair, &tasks, &p, &q, entries, of_p))
             return false;
     }
@@ -260,32 +261,32 @@ static bool rebuild(pir_trimesh_pair *pair) {
 static unsigned try_again(pir_trimesh_pair *pair, const uint32_t *which, int count) {
     pir_node_lanes p, q;
     pir_node_axes axes;
+    pir_mesh_item items[2][PIR_NODE_LANES];
+    pir_front_entry *entries[PIR_NODE_LANES];
     for (int i = 0; i < PIR_NODE_LANES; i++) {
-        const pir_front_entry *entry = &pair->front.entry[which[i < count ? i : 0]];
-        pir_lane_set(&p, i, pair->mesh[0], entry->p);
-        pir_lane_set(&q, i, pair->mesh[1], entry->q);
+        entries[i] = &pair->front.entry[which[i < count ? i : 0]];
+        items[0][i] = entries[i]->p;
+        items[1][i] = entries[i]->q;
         for (int k = 0; k < 3; k++)
-            axes.n[k][i] = entry->n[k];
+            axes.n[k][i] = entries[i]->n[k];
     }
+    pir_node_lanes_set(&p, pair->mesh[0], items[0]);
+    pir_node_lanes_set(&q, pair->mesh[1], items[1]);
     pir_bound_along(&pair->floats, &p, &q, &axes);
     pair->counts.bounds += (uint64_t)count;
     // of leaves the triangles tell more than other directions
     bool more = false;
     for (int i = 0; i < count; i++)
-        more = more || (!is_far(pair, (double)axes.bound[i]) && !are_leaves(pair, &pair->front.entry[which[i]]));
+        more = more || (!is_far(pair, (double)axes.bound[i]) && !are_leaves(pair, entries[i]));
     if (more)
         pir_bound_by_nodes(&pair->floats, &p, &q, &axes);
+    note(pair, entries, count, &p, &axes);
     unsigned short_of = 0;
-    for (int i = 0; i < count; i++) {
-        pir_front_entry *entry = &pair->front.entry[which[i]];
-        for (int k = 0; k < 3; k++)
-            entry->n[k] = axes.n[k][i];
-        note(pair, entry, &p, i, axes.bound[i]);
+    for (int i = 0; i < count; i++)
         if (is_far(pair, (double)axes.bound[i]))
             pir_mesh_front_renew(&pair->front, which[i], axes.bound[i]);
         else
             short_of |= 1u << i;
-    }
     return short_of;
 }
 
@@ -298,7 +299,7 @@ static bool look_again(pir_trimesh_pair *pair, uint32_t i) {
     }
     if (are_leaves(pair, &entry)) {
         pir_node_lanes p;
-        pir_lane_set(&p, 0, pair->mesh[0], entry.p);
+        pir_node_lanes_set_one(&p, pair->mesh[0], entry.p);
         float bound = look_at_triangles(pair, &pair->front.entry[i], &p);
         pir_mesh_front_renew(&pair->front, i, bound);
         return break_ties(pair);
@@ -307,19 +308,6 @@ static bool look_again(pir_trimesh_pair *pair, uint32_t i) {
     tasks.used = 0;
     pir_mesh_front_drop(&pair->front, i);
     return divide(pair, &tasks, &entry) && work(pair, &tasks);
-}
-
-/* Renews entries that their directions still prove, and leaves the others in the list; how many these are. */
-static uint32_t renew_along(pir_trimesh_pair *pair, uint32_t count) {
-    uint32_t *which = pair->front.expired, left = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        float bound = pir_mesh_front_along(&pair->front, &pair->floats, which[i]);
-        if (is_far(pair, (double)bound))
-            pir_mesh_front_renew(&pair->front, which[i], bound);
-        else
-            which[left++] = which[i];
-    }
-    return left;
 }
 
 static bool look_at_expired(pir_trimesh_pair *pair, uint32_t count) {
@@ -355,7 +343,8 @@ static bool update(pir_trimesh_pair *pair) {
         return rebuild(pair);
     uint32_t expired = pir_mesh_front_expired(front, best->span.high);
     pair->counts.expired += expired;
-    expired = renew_along(pair, expired);
+    const float most = best->p != PIR_TRIANGLE_NONE ? pir_float_under(best->span.high) : HUGE_VALF;
+    expired = pir_mesh_front_renew_along(front, &pair->floats, expired, most);
     if (expired > FEW && expired > front->count / 2)
         return rebuild(pair);
     return look_at_expired(pair, expired);

@@ -2,6 +2,9 @@
 /* Bounds by floats, four lanes at a time. */
 #include "mesh/pair/node_bounds.h"
 
+#include <stddef.h>
+#include <string.h>
+
 static pir_node_float4 size_of(pir_node_float4 x) {
     return (pir_node_float4)((pir_int4)x & 0x7fffffff);
 }
@@ -9,10 +12,6 @@ static pir_node_float4 size_of(pir_node_float4 x) {
 /* a where the mask is set, b elsewhere. */
 static pir_node_float4 choose(pir_int4 mask, pir_node_float4 a, pir_node_float4 b) {
     return (pir_node_float4)((mask & (pir_int4)a) | (~mask & (pir_int4)b));
-}
-
-static pir_node_float4 root_of(pir_node_float4 x) {
-    return (pir_node_float4){sqrtf(x[0]), sqrtf(x[1]), sqrtf(x[2]), sqrtf(x[3])};
 }
 
 static pir_node_float4 dot(const pir_node_float4 a[3], const pir_node_float4 b[3]) {
@@ -33,42 +32,113 @@ void pir_float_frame_set(pir_float_frame *floats, const pir_mesh_frame *frame, p
 
 /* --- lanes --- */
 
-void pir_lane_set(pir_node_lanes *lanes, int lane, const pir_trimesh *mesh, pir_mesh_item item) {
-    const pir_mesh_node *node = &mesh->tree.node[item / PIR_MESH_WIDTH];
-    const uint32_t i = item % PIR_MESH_WIDTH;
-    float square = 0;
-    for (int k = 0; k < 3; k++) {
-        float low = pir_mesh_bound(node, k, node->low[k][i]), high = pir_mesh_bound(node, k, node->high[k][i]);
-        float normal = (float)node->normal[k][i];
-        lanes->middle[k][lane] = 0.5f * (low + high);
-        lanes->half[k][lane] = 0.5f * (high - low);
-        lanes->normal[k][lane] = normal;
-        square += normal * normal;
+/*
+ * An item by axes. Words of a node that follow those of the axes are read as a fourth axis, and come to finite numbers
+ * that nothing uses. Steps are added before they are scaled: a rounding less than reading both bounds.
+ */
+typedef struct item_rows {
+    pir_node_float4 middle, half, normal;
+} item_rows;
+
+_Static_assert(offsetof(pir_mesh_node, normal) + 16 <= sizeof(pir_mesh_node), "a fourth axis may be read");
+
+/* Four words of a node, of which each has a byte for each child. */
+static pir_int4 words(const pir_mesh_node *node, size_t offset) {
+    pir_int4 four;
+    memcpy(&four, (const char *)node + offset, sizeof four);
+    return four;
+}
+
+static pir_node_float4 float_of(pir_int4 x) {
+    return __builtin_convertvector(x, pir_node_float4);
+}
+
+static pir_node_float4 steps_of(const pir_mesh_node *node) {
+    return (pir_node_float4){pir_mesh_step(node->exponent[0]), pir_mesh_step(node->exponent[1]),
+                             pir_mesh_step(node->exponent[2]), 0} *
+           0.5f;
+}
+
+static item_rows rows_of(const pir_mesh_node *node, int place) {
+    const int shift = 8 * place;
+    const pir_int4 low = words(node, offsetof(pir_mesh_node, low)) >> shift & 255;
+    const pir_int4 high = words(node, offsetof(pir_mesh_node, high)) >> shift & 255;
+    const pir_int4 normal = words(node, offsetof(pir_mesh_node, normal)) << (24 - shift) >> 24;
+    const pir_node_float4 step = steps_of(node), origin = {node->origin[0], node->origin[1], node->origin[2], 0};
+    return (item_rows){origin + step * float_of(low + high), step * float_of(high - low), float_of(normal)};
+}
+
+static const pir_mesh_node *node_of(const pir_trimesh *mesh, pir_mesh_item item) {
+    return &mesh->tree.node[item / PIR_MESH_WIDTH];
+}
+
+static pir_node_float4 repeat(float x) {
+    return (pir_node_float4){x, x, x, x};
+}
+
+static void set_inverse(pir_node_lanes *lanes) {
+    lanes->inverse = 1 / dot(lanes->normal, lanes->normal);
+}
+
+void pir_node_lanes_set(pir_node_lanes *lanes, const pir_trimesh *mesh, const pir_mesh_item item[PIR_NODE_LANES]) {
+    pir_node_float4 middle[PIR_NODE_LANES], half[PIR_NODE_LANES], normal[PIR_NODE_LANES];
+    for (int i = 0; i < PIR_NODE_LANES; i++) {
+        const pir_mesh_node *node = node_of(mesh, item[i]);
+        const int place = (int)(item[i] % PIR_MESH_WIDTH);
+        const item_rows row = rows_of(node, place);
+        middle[i] = row.middle;
+        half[i] = row.half;
+        normal[i] = row.normal;
+        lanes->low[i] = node->slab_low[place];
+        lanes->high[i] = node->slab_high[place];
     }
-    lanes->inverse[lane] = 1 / square;
-    lanes->low[lane] = node->slab_low[i];
-    lanes->high[lane] = node->slab_high[i];
+    pir_lanes_transpose(middle);
+    pir_lanes_transpose(half);
+    pir_lanes_transpose(normal);
+    for (int k = 0; k < 3; k++) {
+        lanes->middle[k] = middle[k];
+        lanes->half[k] = half[k];
+        lanes->normal[k] = normal[k];
+    }
+    set_inverse(lanes);
+}
+
+void pir_node_lanes_set_one(pir_node_lanes *lanes, const pir_trimesh *mesh, pir_mesh_item item) {
+    const pir_mesh_node *node = node_of(mesh, item);
+    const int place = (int)(item % PIR_MESH_WIDTH);
+    const item_rows row = rows_of(node, place);
+    for (int k = 0; k < 3; k++) {
+        lanes->middle[k] = repeat(row.middle[k]);
+        lanes->half[k] = repeat(row.half[k]);
+        lanes->normal[k] = repeat(row.normal[k]);
+    }
+    lanes->low = repeat(node->slab_low[place]);
+    lanes->high = repeat(node->slab_high[place]);
+    set_inverse(lanes);
+}
+
+/* The bytes of four children as floats; of places without a child those of the first. */
+static pir_int4 bytes_of(const uint8_t byte[PIR_MESH_WIDTH], pir_int4 has) {
+    const pir_int4 first = {byte[0], byte[0], byte[0], byte[0]};
+    return (has & (pir_int4){byte[0], byte[1], byte[2], byte[3]}) | (~has & first);
 }
 
 void pir_node_lanes_set_node(pir_node_lanes *lanes, const pir_trimesh *mesh, uint32_t n) {
     const pir_mesh_node *node = &mesh->tree.node[n];
-    for (int i = 0; i < PIR_NODE_LANES; i++)
-        pir_lane_set(lanes, i, mesh, n * PIR_MESH_WIDTH + (i < node->count ? (uint32_t)i : 0));
-}
-
-static pir_node_float4 repeat(pir_node_float4 x, int lane) {
-    return (pir_node_float4){x[lane], x[lane], x[lane], x[lane]};
-}
-
-void pir_node_lanes_repeat(pir_node_lanes *lanes, const pir_node_lanes *from, int lane) {
+    const pir_int4 has = (pir_int4){0, 1, 2, 3} < node->count;
+    const pir_node_float4 step = steps_of(node);
     for (int k = 0; k < 3; k++) {
-        lanes->middle[k] = repeat(from->middle[k], lane);
-        lanes->half[k] = repeat(from->half[k], lane);
-        lanes->normal[k] = repeat(from->normal[k], lane);
+        const pir_int4 low = bytes_of(node->low[k], has), high = bytes_of(node->high[k], has);
+        const pir_int4 normal = bytes_of((const uint8_t *)node->normal[k], has) << 24 >> 24;
+        lanes->middle[k] = node->origin[k] + step[k] * float_of(low + high);
+        lanes->half[k] = step[k] * float_of(high - low);
+        lanes->normal[k] = float_of(normal);
     }
-    lanes->inverse = repeat(from->inverse, lane);
-    lanes->low = repeat(from->low, lane);
-    lanes->high = repeat(from->high, lane);
+    memcpy(&lanes->low, node->slab_low, sizeof lanes->low);
+    memcpy(&lanes->high, node->slab_high, sizeof lanes->high);
+    lanes->low = choose(has, lanes->low, repeat(node->slab_low[0]));
+    lanes->high = choose(has, lanes->high, repeat(node->slab_high[0]));
+    set_inverse(lanes);
 }
 
 /* --- bounds --- */
@@ -103,7 +173,7 @@ void pir_bound_along(const pir_float_frame *frame, const pir_node_lanes *p, cons
 static void try_directions(const pir_float_frame *frame, const pir_node_lanes *p, const pir_node_lanes *q,
                            const pir_node_float4 n[3], const pir_node_float4 between[3], pir_node_axes *axes) {
     const pir_node_float4 none = {0, 0, 0, 0};
-    pir_node_float4 square = dot(n, n), by = choose(square > 0x1p-100f, 1 / root_of(square), none), unit[3];
+    pir_node_float4 square = dot(n, n), by = choose(square > 0x1p-100f, 1 / pir_lanes_root(square), none), unit[3];
     by = choose(dot(n, between) < 0, -by, by);
     for (int k = 0; k < 3; k++)
         unit[k] = n[k] * by;
@@ -131,15 +201,26 @@ void pir_bound_by_nodes(const pir_float_frame *f, const pir_node_lanes *p, const
     try_directions(f, p, q, normal, between, axes);
 }
 
-float pir_lane_reach(const pir_float_frame *frame, const pir_node_lanes *l, int i) {
-    float square = 0;
+pir_node_float4 pir_lanes_reach(const pir_float_frame *frame, const pir_node_lanes *l) {
+    pir_node_float4 square = {0, 0, 0, 0};
     for (int k = 0; k < 3; k++) {
-        float reach = fabsf(l->middle[k][i] - frame->about[k]) + l->half[k][i];
+        const pir_node_float4 reach = size_of(l->middle[k] - frame->about[k]) + l->half[k];
         square += reach * reach;
     }
-    return sqrtf(square) * (1 + 0x1p-20f) + frame->error;
+    return pir_lanes_root(square) * (1 + 0x1p-20f) + frame->error;
 }
 
-float pir_lane_size(const pir_node_lanes *l, int i) {
-    return l->half[0][i] * l->half[0][i] + l->half[1][i] * l->half[1][i] + l->half[2][i] * l->half[2][i];
+pir_node_float4 pir_lanes_size(const pir_node_lanes *l) {
+    return dot(l->half, l->half);
+}
+
+float pir_item_size(const pir_trimesh *mesh, pir_mesh_item item) {
+    const pir_mesh_node *node = node_of(mesh, item);
+    const uint32_t i = item % PIR_MESH_WIDTH;
+    float square = 0;
+    for (int k = 0; k < 3; k++) {
+        const float half = 0.5f * pir_mesh_step(node->exponent[k]) * (float)(node->high[k][i] - node->low[k][i]);
+        square += half * half;
+    }
+    return square;
 }

@@ -17,6 +17,22 @@
 typedef float pir_node_float4 __attribute__((vector_size(16)));
 typedef int32_t pir_int4 __attribute__((vector_size(16)));
 
+#ifdef __clang__
+#define PIR_SHUFFLE(a, b, i, j, k, l) __builtin_shufflevector(a, b, i, j, k, l)
+#else
+#define PIR_SHUFFLE(a, b, i, j, k, l) __builtin_shuffle(a, b, (pir_int4){i, j, k, l})
+#endif
+
+/* Makes columns of rows. */
+static inline void pir_lanes_transpose(pir_node_float4 row[4]) {
+    const pir_node_float4 a = PIR_SHUFFLE(row[0], row[1], 0, 4, 1, 5), b = PIR_SHUFFLE(row[2], row[3], 0, 4, 1, 5);
+    const pir_node_float4 c = PIR_SHUFFLE(row[0], row[1], 2, 6, 3, 7), d = PIR_SHUFFLE(row[2], row[3], 2, 6, 3, 7);
+    row[0] = PIR_SHUFFLE(a, b, 0, 1, 4, 5);
+    row[1] = PIR_SHUFFLE(a, b, 2, 3, 6, 7);
+    row[2] = PIR_SHUFFLE(c, d, 0, 1, 4, 5);
+    row[3] = PIR_SHUFFLE(c, d, 2, 3, 6, 7);
+}
+
 /* A child of a node: node · 4 + place. */
 typedef uint32_t pir_mesh_item;
 
@@ -48,12 +64,10 @@ static inline uint32_t pir_item_least(const pir_trimesh *mesh, pir_mesh_item ite
     return mesh->tree.node[item / PIR_MESH_WIDTH].least[item % PIR_MESH_WIDTH];
 }
 
-/* Fills one lane, or all by the children of a node; lanes without a child are like the first. */
-void pir_lane_set(pir_node_lanes *lanes, int lane, const pir_trimesh *mesh, pir_mesh_item item);
+/* Lanes of four items, or of one item each; by the children of a node, those without a child like the first. */
+void pir_node_lanes_set(pir_node_lanes *lanes, const pir_trimesh *mesh, const pir_mesh_item item[PIR_NODE_LANES]);
+void pir_node_lanes_set_one(pir_node_lanes *lanes, const pir_trimesh *mesh, pir_mesh_item item);
 void pir_node_lanes_set_node(pir_node_lanes *lanes, const pir_trimesh *mesh, uint32_t node);
-
-/* Lanes that are all like one. */
-void pir_node_lanes_repeat(pir_node_lanes *lanes, const pir_node_lanes *from, int lane);
 
 /* The bounds that given directions prove: axes->bound. */
 void pir_bound_along(const pir_float_frame *frame, const pir_node_lanes *p, const pir_node_lanes *q,
@@ -63,8 +77,16 @@ void pir_bound_along(const pir_float_frame *frame, const pir_node_lanes *p, cons
 void pir_bound_by_nodes(const pir_float_frame *frame, const pir_node_lanes *p, const pir_node_lanes *q,
                         pir_node_axes *axes);
 
-/* How far a child of P reaches from the middle of P, rounded up; and how large it is, squared. */
-float pir_lane_reach(const pir_float_frame *frame, const pir_node_lanes *lanes, int lane);
-float pir_lane_size(const pir_node_lanes *lanes, int lane);
+/* The square root of each lane. */
+static inline pir_node_float4 pir_lanes_root(pir_node_float4 x) {
+    return (pir_node_float4){sqrtf(x[0]), sqrtf(x[1]), sqrtf(x[2]), sqrtf(x[3])};
+}
+
+/* How far children of P reach from the middle of P, rounded up; and how large they are, squared. */
+pir_node_float4 pir_lanes_reach(const pir_float_frame *frame, const pir_node_lanes *lanes);
+pir_node_float4 pir_lanes_size(const pir_node_lanes *lanes);
+
+/* How large an item is, squared. */
+float pir_item_size(const pir_trimesh *mesh, pir_mesh_item item);
 
 #endif

@@ -57,19 +57,17 @@ static void sort_lanes(pir_trimesh_pair *pair, const pir_pair_descent *d, struct
 static void divide(pir_trimesh_pair *pair, const pir_pair_descent *d, struct descent_tasks *tasks,
                    const struct descent_task *task) {
     pir_node_lanes lanes[2];
-    pir_lane_set(&lanes[0], 0, pair->mesh[0], task->p);
-    pir_lane_set(&lanes[1], 0, pair->mesh[1], task->q);
-    int side = pir_lane_size(&lanes[0], 0) >= pir_lane_size(&lanes[1], 0) ? 0 : 1;
-    if (pir_mesh_is_leaf(child_of(pair, side, side == 0 ? task->p : task->q)))
+    const pir_mesh_item item[2] = {task->p, task->q};
+    int side = pir_item_size(pair->mesh[0], item[0]) >= pir_item_size(pair->mesh[1], item[1]) ? 0 : 1;
+    if (pir_mesh_is_leaf(child_of(pair, side, item[side])))
         side = 1 - side;
-    uint32_t node = child_of(pair, side, side == 0 ? task->p : task->q);
+    uint32_t node = child_of(pair, side, item[side]);
     pir_node_lanes_set_node(&lanes[side], pair->mesh[side], node);
-    pir_node_lanes_repeat(&lanes[1 - side], &lanes[1 - side], 0);
+    pir_node_lanes_set_one(&lanes[1 - side], pair->mesh[1 - side], item[1 - side]);
     struct descent_task lane[PIR_NODE_LANES];
     for (int i = 0; i < PIR_NODE_LANES; i++) {
         lane[i] = *task;
-        pir_mesh_item item = node * PIR_MESH_WIDTH + (uint32_t)i;
-        *(side == 0 ? &lane[i].p : &lane[i].q) = item;
+        *(side == 0 ? &lane[i].p : &lane[i].q) = node * PIR_MESH_WIDTH + (uint32_t)i;
         if (i >= pair->mesh[side]->tree.node[node].count)
             lane[i].p = PIR_MESH_NO_CHILD;
     }
@@ -96,8 +94,7 @@ void pir_pair_descend(pir_trimesh_pair *pair, const pir_pair_descent *descent) {
         tasks.used = 0; // the rest is written before it is read
         struct descent_task lane[PIR_NODE_LANES];
         pir_node_lanes p, q;
-        pir_lane_set(&p, 0, pair->mesh[0], i);
-        pir_node_lanes_repeat(&p, &p, 0);
+        pir_node_lanes_set_one(&p, pair->mesh[0], i);
         pir_node_lanes_set_node(&q, pair->mesh[1], 0);
         for (uint32_t j = 0; j < PIR_NODE_LANES; j++)
             lane[j] = (struct descent_task){j < of_q ? i : PIR_MESH_NO_CHILD, j, {1, 0, 0}};
