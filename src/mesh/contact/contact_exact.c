@@ -57,7 +57,7 @@ static int low_exponent(const pir_contact_job *job) {
 /* Bits of a difference: of q bits for P's rotation, `turned` for a surface's, and `fine` for a coordinate. */
 static uint32_t difference_bits(const pir_polytope *p, uint32_t q, uint32_t turned, uint32_t fine) {
     uint32_t num = pir_int_bits(&p->scale.num), den = pir_int_bits(&p->scale.den);
-    uint32_t vertex = q + pir_vectors_bits(&p->exact_vertex) + num + (fine - 61) + 4, moved = fine + q + den;
+    uint32_t vertex = q + p->exact_vertex.stride * GMP_NUMB_BITS + num + (fine - 61) + 4, moved = fine + q + den;
     uint32_t body = (vertex > moved ? vertex : moved) + 1, corner = turned + fine + 5;
     uint32_t first = body + turned, second = corner + q + den;
     return (first > second ? first : second) + 2;

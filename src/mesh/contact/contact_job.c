@@ -114,18 +114,12 @@ struct gathering {
     const pir_mat3 *r;
     pir_vec3 t;
     bool moved, one_sided;
-    double low[3], high[3];
+    pir_walk_box box;
     double most;
 };
 
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const struct gathering *g = context;
-    for (int i = 0; i < PIR_MESH_WIDTH; i++)
-        ret_near[i] = 0;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < PIR_MESH_WIDTH; i++)
-            if ((double)boxes->low[k][i] > g->high[k] || (double)boxes->high[k][i] < g->low[k])
-                ret_near[i] = HUGE_VAL;
+    pir_walk_box_measure(&((const struct gathering *)context)->box, boxes, ret_near);
 }
 
 static bool reserve_triangle(pir_contact_job *job) {
@@ -148,13 +142,8 @@ static pir_vec3 unit_or_zero(pir_vec3 n) {
 static bool look(void *context, const pir_met_triangle *met) {
     struct gathering *g = context;
     pir_contact_job *job = g->job;
-    for (int k = 0; k < 3; k++) {
-        double x[3];
-        for (int i = 0; i < 3; i++)
-            x[i] = k == 0 ? met->tri.p[i].x : k == 1 ? met->tri.p[i].y : met->tri.p[i].z;
-        if (fmin(x[0], fmin(x[1], x[2])) > g->high[k] || fmax(x[0], fmax(x[1], x[2])) < g->low[k])
-            return true;
-    }
+    if (!pir_walk_box_meets(&g->box, &met->tri))
+        return true;
     if (job->triangle_count >= PIR_CONTACT_TRIANGLES_MOST || !reserve_triangle(job)) {
         job->out_of_memory = true;
         return false;
@@ -180,15 +169,15 @@ static void set_box(struct gathering *g, const pir_contact_job *job, double grow
     pir_vec3 t = job->input->pose.translation;
     for (int k = 0; k < 3; k++) {
         double low = component(job->low, k) + component(t, k), high = component(job->high, k) + component(t, k);
-        g->low[k] = low - grow - slack;
-        g->high[k] = high + grow + slack;
+        g->box.low[k] = low - grow - slack;
+        g->box.high[k] = high + grow + slack;
     }
     if (!g->moved)
         return;
     double middle[3], half[3];
     for (int k = 0; k < 3; k++) {
-        middle[k] = 0.5 * (g->low[k] + g->high[k]) - component(g->t, k);
-        half[k] = 0.5 * (g->high[k] - g->low[k]);
+        middle[k] = 0.5 * (g->box.low[k] + g->box.high[k]) - component(g->t, k);
+        half[k] = 0.5 * (g->box.high[k] - g->box.low[k]);
     }
     for (int k = 0; k < 3; k++) {
         double at = 0, reach = slack;
@@ -196,8 +185,8 @@ static void set_box(struct gathering *g, const pir_contact_job *job, double grow
             at += g->r->m[i][k] * middle[i];
             reach += fabs(g->r->m[i][k]) * half[i];
         }
-        g->low[k] = at - reach;
-        g->high[k] = at + reach;
+        g->box.low[k] = at - reach;
+        g->box.high[k] = at + reach;
     }
 }
 
@@ -225,7 +214,7 @@ static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) 
                               posed->surface.mesh ? !posed->surface.mesh->two_sided : !posed->surface.field->two_sided};
     double size = surface_size(posed) + job->radius + grow + pir_length(job->input->pose.translation);
     set_box(&g, job, grow, 0x1p-44 * size);
-    pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most, NULL});
+    pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most, &g.box});
 }
 
 /* Sizes, of what was gathered. */

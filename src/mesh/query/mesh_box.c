@@ -23,13 +23,7 @@ static void coordinates(pir_vec3 v, double ret_c[3]) {
 }
 
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    const struct query *q = context;
-    for (int i = 0; i < PIR_MESH_WIDTH; i++)
-        ret_near[i] = 0;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < PIR_MESH_WIDTH; i++)
-            if ((double)boxes->low[k][i] > q->box.high[k] || (double)boxes->high[k][i] < q->box.low[k])
-                ret_near[i] = HUGE_VAL;
+    pir_walk_box_measure(&((const struct query *)context)->box, boxes, ret_near);
 }
 
 /* Whether an edge from a to b, seen in the plane, has the rectangle strictly on its other side than the corner c. */
@@ -65,10 +59,8 @@ static bool meets(const struct query *q, const pir_tri *tri) {
     double p[3][3];
     for (int i = 0; i < 3; i++)
         coordinates(tri->p[i], p[i]);
-    for (int k = 0; k < 3; k++)
-        if (fmin(p[0][k], fmin(p[1][k], p[2][k])) > q->box.high[k] ||
-            fmax(p[0][k], fmax(p[1][k], p[2][k])) < q->box.low[k])
-            return false;
+    if (!pir_walk_box_meets(&q->box, tri))
+        return false;
     double front[3], behind[3];
     for (int k = 0; k < 3; k++) {
         int sign;

@@ -24,6 +24,27 @@ struct stack {
     uint32_t used;
 };
 
+void pir_walk_box_measure(const pir_walk_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
+    for (int i = 0; i < PIR_MESH_WIDTH; i++)
+        ret_near[i] = 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < PIR_MESH_WIDTH; i++)
+            if ((double)boxes->low[k][i] > box->high[k] || (double)boxes->high[k][i] < box->low[k])
+                ret_near[i] = HUGE_VAL;
+}
+
+/* Whether the span of three numbers meets an interval. */
+static bool spans_meet(double a, double b, double c, double low, double high) {
+    return (a <= high || b <= high || c <= high) && (a >= low || b >= low || c >= low);
+}
+
+bool pir_walk_box_meets(const pir_walk_box *box, const pir_tri *tri) {
+    const pir_vec3 *p = tri->p;
+    return spans_meet(p[0].z, p[1].z, p[2].z, box->low[2], box->high[2]) &&
+           spans_meet(p[0].x, p[1].x, p[2].x, box->low[0], box->high[0]) &&
+           spans_meet(p[0].y, p[1].y, p[2].y, box->low[1], box->high[1]);
+}
+
 pir_status pir_surface_check(pir_surface_ref surface) {
     return surface.mesh || surface.field ? PIR_OK : PIR_ERR_ARGUMENT;
 }

@@ -35,6 +35,12 @@ typedef struct pir_walk {
     const pir_walk_box *within; /* triangles that do not meet it may be left out; NULL: none */
 } pir_walk;
 
+/* Where a walk looks for what meets a box: 0 for those of `boxes` that meet it, HUGE_VAL for others. */
+void pir_walk_box_measure(const pir_walk_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]);
+
+/* Whether the box around a triangle meets a box. */
+bool pir_walk_box_meets(const pir_walk_box *box, const pir_tri *tri);
+
 /* PIR_ERR_ARGUMENT where there is neither a mesh nor a field. */
 pir_status pir_surface_check(pir_surface_ref surface);
 

@@ -19,7 +19,7 @@ struct near_walk {
 };
 
 static void measure_box(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    pir_seen_box_meets(&((const struct near_walk *)context)->box, boxes, ret_near);
+    pir_walk_box_measure(&((const struct near_walk *)context)->box, boxes, ret_near);
 }
 
 static void measure_distance(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {

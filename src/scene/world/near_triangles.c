@@ -30,15 +30,6 @@ pir_walk_box pir_place_sees(const pir_place *place, const pir_box *box) {
     return seen;
 }
 
-void pir_seen_box_meets(const pir_walk_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    for (int i = 0; i < PIR_MESH_WIDTH; i++)
-        ret_near[i] = 0;
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < PIR_MESH_WIDTH; i++)
-            if ((double)boxes->low[k][i] > box->high[k] || (double)boxes->high[k][i] < box->low[k])
-                ret_near[i] = HUGE_VAL;
-}
-
 struct triangle_list {
     pir_walk_box box;
     pir_scene *scene;
@@ -47,25 +38,13 @@ struct triangle_list {
 };
 
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    pir_seen_box_meets(&((const struct triangle_list *)context)->box, boxes, ret_near);
-}
-
-bool pir_seen_box_meets_triangle(const pir_walk_box *box, const pir_tri *tri) {
-    const pir_vec3 *p = tri->p;
-    const double low[3] = {fmin(p[0].x, fmin(p[1].x, p[2].x)), fmin(p[0].y, fmin(p[1].y, p[2].y)),
-                           fmin(p[0].z, fmin(p[1].z, p[2].z))},
-                 high[3] = {fmax(p[0].x, fmax(p[1].x, p[2].x)), fmax(p[0].y, fmax(p[1].y, p[2].y)),
-                            fmax(p[0].z, fmax(p[1].z, p[2].z))};
-    for (int k = 0; k < 3; k++)
-        if (low[k] > box->high[k] || high[k] < box->low[k])
-            return false;
-    return true;
+    pir_walk_box_measure(&((const struct triangle_list *)context)->box, boxes, ret_near);
 }
 
 static bool look(void *context, const pir_met_triangle *met) {
     struct triangle_list *list = context;
     pir_scene_lists *lists = &list->scene->lists;
-    if (!pir_seen_box_meets_triangle(&list->box, &met->tri))
+    if (!pir_walk_box_meets(&list->box, &met->tri))
         return true;
     list->failed = !PIR_GROW(&list->scene->allocator, lists->triangle, lists->triangle_capacity, list->count + 1);
     if (!list->failed)

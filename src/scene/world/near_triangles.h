@@ -9,12 +9,6 @@
 /* A box along the axes of a body's frame that holds one of the world's. */
 pir_walk_box pir_place_sees(const pir_place *place, const pir_box *box);
 
-/* For each box of a node 0 where it meets this one, else HUGE_VAL. */
-void pir_seen_box_meets(const pir_walk_box *box, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]);
-
-/* Whether the box around a triangle meets it. */
-bool pir_seen_box_meets_triangle(const pir_walk_box *box, const pir_tri *tri);
-
 /* Lists the triangles whose own boxes meet it in scene->lists.triangle. PIR_ERR_MEMORY, PIR_ERR_LIMIT. */
 pir_status pir_scene_list_triangles(pir_scene *scene, const pir_scene_body *body, const pir_place *place,
                                     const pir_box *box, uint32_t *ret_count);

@@ -50,14 +50,14 @@ static bool look_for_pair(void *context, const pir_met_triangle *met) {
     const uint32_t known = pir_triangles_find(&scene->bodies, missing->number, met->number);
     pir_scene_piece triangle = pir_triangle_piece(&scene->bodies, missing->number, met->number);
     pir_piece_box(missing->body, &triangle, &missing->place, pir_scene_around(scene, missing->body), &triangle.tight);
-    missing->misses = pir_seen_box_meets_triangle(&missing->box, &met->tri) &&
+    missing->misses = pir_walk_box_meets(&missing->box, &met->tri) &&
                       pir_box_meets(&triangle.tight, &scene->tree.node[scene->bodies.piece[missing->piece].node].box) &&
                       (known == PIR_PIECE_NONE || !has_pair(scene, missing->piece, known));
     return !missing->misses;
 }
 
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
-    pir_seen_box_meets(&((const struct missing_pairs *)context)->box, boxes, ret_near);
+    pir_walk_box_measure(&((const struct missing_pairs *)context)->box, boxes, ret_near);
 }
 
 /* The piece has a pair with each triangle of a surface whose tight box meets its box in the tree. */
