@@ -60,7 +60,7 @@ static pir_node_float4 steps_of(const pir_mesh_node *node) {
 }
 
 static item_rows rows_of(const pir_mesh_node *node, int place) {
-    const int shift = 8 * place;
+    const int shift = 8 * (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__ ? PIR_MESH_WIDTH - 1 - place : place);
     const pir_int4 low = words(node, offsetof(pir_mesh_node, low)) >> shift & 255;
     const pir_int4 high = words(node, offsetof(pir_mesh_node, high)) >> shift & 255;
     const pir_int4 normal = words(node, offsetof(pir_mesh_node, normal)) << (24 - shift) >> 24;
