@@ -55,7 +55,7 @@ static pir_status init(struct mesh_ray *ray, pir_surface_ref surface, const pir_
         low[k] = from - pad;
         high[k] = from + pad;
     }
-    ray->swept = pir_swept_box_of(low, high, asked->way);
+    pir_swept_box_set(&ray->swept, low, high, asked->way);
     return PIR_OK;
 }
 

@@ -25,20 +25,21 @@ typedef struct pir_swept_box {
     bool down[3];                /* whether it comes to the upper side of a box first */
 } pir_swept_box;
 
-static inline pir_swept_box pir_swept_box_of(const double low[3], const double high[3], pir_vec3 way) {
-    pir_swept_box swept = {.way = {way.x, way.y, way.z}};
+/* Writes in place: where it is copied, its booleans are read together before they have been written. */
+static inline void pir_swept_box_set(pir_swept_box *swept, const double low[3], const double high[3], pir_vec3 way) {
+    const double ways[3] = {way.x, way.y, way.z};
     for (int k = 0; k < 3; k++) {
-        const double along = fabs(swept.way[k]), by = along < PIR_SWEPT_SHORT ? 0x1p-990 : 0,
-                     part = by > 0 ? 0x1p-50 : 0;
-        const bool reverse = swept.way[k] <= -PIR_SWEPT_SHORT;
-        swept.low[k] = low[k] - (by + part * fabs(low[k]));
-        swept.high[k] = high[k] + (by + part * fabs(high[k]));
-        swept.inverse[k] = by > 0 ? 1 / PIR_SWEPT_SHORT : 1 / swept.way[k];
-        swept.foremost[k] = reverse ? swept.low[k] : swept.high[k];
-        swept.last[k] = reverse ? swept.high[k] : swept.low[k];
-        swept.down[k] = reverse;
+        const double along = fabs(ways[k]), by = along < PIR_SWEPT_SHORT ? 0x1p-990 : 0, part = by > 0 ? 0x1p-50 : 0;
+        const bool reverse = ways[k] <= -PIR_SWEPT_SHORT;
+        const double lower = low[k] - (by + part * fabs(low[k])), upper = high[k] + (by + part * fabs(high[k]));
+        swept->low[k] = lower;
+        swept->high[k] = upper;
+        swept->way[k] = ways[k];
+        swept->inverse[k] = by > 0 ? 1 / PIR_SWEPT_SHORT : 1 / ways[k];
+        swept->foremost[k] = reverse ? lower : upper;
+        swept->last[k] = reverse ? upper : lower;
+        swept->down[k] = reverse;
     }
-    return swept;
 }
 
 /* The times at which it meets each, no later than they are; HUGE_VAL where it meets it at none. */

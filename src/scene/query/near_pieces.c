@@ -87,7 +87,7 @@ pir_status pir_near_triangles(const pir_near_search *near, const pir_scene_body 
     const pir_box box = pir_box_wider(&near->box, around), from = pir_box_wider(&near->from, around);
     walk.box = pir_place_sees(&walk.place, &box);
     walk.from = pir_place_sees(&walk.place, &from);
-    walk.swept = pir_swept_box_of(walk.from.low, walk.from.high, pir_mat_apply_transposed(&walk.place.r, near->way));
+    pir_swept_box_set(&walk.swept, walk.from.low, walk.from.high, pir_mat_apply_transposed(&walk.place.r, near->way));
     pir_walk_box within = walk.box;
     const pir_walk_box bounds = pir_surface_bounds(pir_body_surface_of(body));
     if (near->by == PIR_NEAR_TIME && !pir_swept_part(&walk.swept, &bounds, *near->most, &within))

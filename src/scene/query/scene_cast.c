@@ -213,8 +213,9 @@ static pir_status look_at_surface(struct flight *flight, const pir_scene_body *b
     const pir_vec3 way = pir_mat_apply_transposed(&on.place.r, flight->motion->way);
     on.target.radius = body->radius;
     on.target.size = size_of(flight, body);
-    pir_swept_triangles(
-        body, &(pir_swept_walk){pir_swept_box_of(from.low, from.high, way), &flight->until, look_at_triangle, &on});
+    pir_swept_walk walk = {.until = &flight->until, .look = look_at_triangle, .context = &on};
+    pir_swept_box_set(&walk.swept, from.low, from.high, way);
+    pir_swept_triangles(body, &walk);
     return on.status;
 }
 
@@ -237,7 +238,8 @@ static pir_status fly(struct flight *flight, struct first_met *first) {
         low[k] = from.low[k];
         high[k] = from.high[k];
     }
-    const pir_swept_box swept = pir_swept_box_of(low, high, flight->motion->way);
+    pir_swept_box swept;
+    pir_swept_box_set(&swept, low, high, flight->motion->way);
     return pir_swept_pieces(&(pir_swept_search){&flight->probe, &swept, &flight->until, look_at_leaf, flight});
 }
 

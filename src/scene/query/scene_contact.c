@@ -79,7 +79,7 @@ static void set_swept(contact_job *job) {
             high[k] = fmin(high[k], middle[k] + ball);
         }
     }
-    job->swept = pir_swept_box_of(low, high, motion->way);
+    pir_swept_box_set(&job->swept, low, high, motion->way);
 }
 
 /* Whether a box is nearer to where the piece starts than it goes until the first contact so far. */
@@ -192,7 +192,8 @@ static pir_status look_at_surface(contact_job *job, const pir_scene_body *body) 
     box = pir_box_wider(&box, room);
     const pir_walk_box from = pir_place_sees(&place, &box);
     const pir_vec3 way = pir_mat_apply_transposed(&place.r, job->motion->way);
-    const pir_swept_walk walk = {pir_swept_box_of(from.low, from.high, way), &job->until, look_at_triangle, &look};
+    pir_swept_walk walk = {.until = &job->until, .look = look_at_triangle, .context = &look};
+    pir_swept_box_set(&walk.swept, from.low, from.high, way);
     pir_swept_triangles(body, &walk);
     return look.status;
 }

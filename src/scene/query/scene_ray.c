@@ -177,8 +177,12 @@ static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *b
                  room = radius > 0 ? radius + 0x1p-30 * (body->reach + radius) : 0, pad = room + 2 * on.segment.error;
     const double low[3] = {from.x - pad, from.y - pad, from.z - pad},
                  high[3] = {from.x + pad, from.y + pad, from.z + pad};
-    const pir_swept_box swept = pir_swept_box_of(low, high, on.segment.way);
-    pir_swept_triangles(body, &(pir_swept_walk){swept, &ray->most, look_at_triangle, &on});
+    pir_swept_walk walk; // of which all is set
+    walk.until = &ray->most;
+    walk.look = look_at_triangle;
+    walk.context = &on;
+    pir_swept_box_set(&walk.swept, low, high, on.segment.way);
+    pir_swept_triangles(body, &walk);
     return on.status;
 }
 
@@ -227,7 +231,12 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
         return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its origin is beyond 2^60");
     if (!(length(world.way) <= PIR_BOX_FARTHEST))
         return pir_fail(scene->report, PIR_ERR_LIMIT, "ray: its way is longer than 2^60");
-    *ray = (struct scene_ray){.scene = scene, .world = world, .options = used, .most = 1};
+    // member by member, for clearing it takes longer; the callers set the others
+    ray->scene = scene;
+    ray->world = world;
+    ray->options = used;
+    ray->most = 1;
+    ray->capacity = ray->count = 0;
     const double at[3] = {world.origin.x, world.origin.y, world.origin.z};
     double low[3], high[3];
     for (int k = 0; k < 3; k++) {
@@ -235,7 +244,7 @@ static pir_status begin(pir_scene *scene, const char *missing, pir_world_ray wor
         low[k] = at[k] - pad;
         high[k] = at[k] + pad;
     }
-    ray->swept = pir_swept_box_of(low, high, world.way);
+    pir_swept_box_set(&ray->swept, low, high, world.way);
     ray->probe = (pir_probe){.scene = scene,
                              .body = PIR_SCENE_NONE,
                              .mask = used.mask,

@@ -87,11 +87,10 @@ static bool look(void *context, const pir_met_triangle *met) {
     return walk->look(walk->context, met);
 }
 
-void pir_swept_triangles(const pir_scene_body *body, const pir_swept_walk *walk) {
+void pir_swept_triangles(const pir_scene_body *body, pir_swept_walk *walk) {
     const pir_surface_ref surface = pir_body_surface_of(body);
     const pir_walk_box bounds = pir_surface_bounds(surface);
-    pir_swept_walk by = *walk;
     pir_walk_box part;
     if (pir_swept_part(&walk->swept, &bounds, *walk->until, &part))
-        pir_surface_walk(surface, &(pir_walk){measure, look, &by, walk->until, &part});
+        pir_surface_walk(surface, &(pir_walk){measure, look, walk, walk->until, &part});
 }

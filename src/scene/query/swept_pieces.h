@@ -28,6 +28,6 @@ typedef struct pir_swept_walk {
     void *context;
 } pir_swept_walk;
 
-void pir_swept_triangles(const pir_scene_body *body, const pir_swept_walk *walk);
+void pir_swept_triangles(const pir_scene_body *body, pir_swept_walk *walk);
 
 #endif
