@@ -14,6 +14,7 @@
 #include <pirouette/trimesh_pair.h>
 
 #include "mesh/mesh_models.h"
+#include "mesh/pair/node_bounds.h"
 #include "oracle/triangles.h"
 #include "support/memory.h"
 
@@ -274,6 +275,49 @@ static void AnswersDoNotDependOnHistory(void **state) {
     mesh_arrays_clear(&ball);
 }
 
+/* Whether lane `i` of some lanes is lane `j` of others, bit for bit. */
+static bool same_lane(const pir_node_lanes *a, int i, const pir_node_lanes *b, int j) {
+    bool same = a->inverse[i] == b->inverse[j] && a->low[i] == b->low[j] && a->high[i] == b->high[j];
+    for (int k = 0; k < 3; k++)
+        same = same && a->middle[k][i] == b->middle[k][j] && a->half[k][i] == b->half[k][j] &&
+               a->normal[k][i] == b->normal[k][j];
+    return same;
+}
+
+/* Children of nodes by all ways of reading them, and the box and slab that the node has, number by number. */
+static void ItemsAreReadAlikeByAllWays(void **state) {
+    (void)state;
+    test_random random = test_random_case("items", 1);
+    mesh_arrays ball = mesh_bumpy_sphere(3, 0.2);
+    pir_trimesh *mesh = mesh_of(&ball, NULL);
+    pir_mesh_item item[PIR_NODE_LANES] = {0, 0, 0, 0};
+    for (uint32_t n = 0; n < mesh->tree.node_count; n++) {
+        const pir_mesh_node *node = &mesh->tree.node[n];
+        pir_node_lanes all, four, one;
+        pir_node_lanes_set_node(&all, mesh, n);
+        for (int i = 0; i < node->count; i++) {
+            const int lane = (int)test_random_below(&random, PIR_NODE_LANES);
+            item[lane] = n * PIR_MESH_WIDTH + (uint32_t)i; // others are of nodes before
+            pir_node_lanes_set(&four, mesh, item);
+            pir_node_lanes_set_one(&one, mesh, item[lane]);
+            assert_true(same_lane(&four, lane, &one, 0) && same_lane(&one, 0, &one, 3) && same_lane(&all, i, &one, 0));
+            assert_true(pir_item_size(mesh, item[lane]) == pir_lanes_size(&one)[0]);
+            for (int k = 0; k < 3; k++) {
+                const double low = (double)pir_mesh_bound(node, k, node->low[k][i]),
+                             high = (double)pir_mesh_bound(node, k, node->high[k][i]), near = 0x1p-22;
+                assert_true(fabs((double)one.middle[k][0] - (double)one.half[k][0] - low) < near);
+                assert_true(fabs((double)one.middle[k][0] + (double)one.half[k][0] - high) < near);
+                assert_true(one.normal[k][0] == (float)node->normal[k][i]);
+            }
+            assert_true(one.low[0] == node->slab_low[i] && one.high[0] == node->slab_high[i]);
+        }
+        for (int i = node->count; i < PIR_NODE_LANES; i++)
+            assert_true(same_lane(&all, i, &all, 0));
+    }
+    pir_trimesh_release(mesh);
+    mesh_arrays_clear(&ball);
+}
+
 /* --- within each other --- */
 
 static mesh_arrays scaled(mesh_arrays arrays, double by) {
@@ -470,6 +514,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(NearestAndFarthestTrianglesAreExact),
         cmocka_unit_test(AnswersDoNotDependOnHistory),
+        cmocka_unit_test(ItemsAreReadAlikeByAllWays),
         cmocka_unit_test(WhatIsWithinIsTold),
         cmocka_unit_test(MeshesThatMeetEverywhereAreAnsweredAtOnce),
         cmocka_unit_test(WrongPosesAreRefused),
