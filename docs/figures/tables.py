@@ -193,7 +193,7 @@ def mesh_pairs(r):
 
 def mesh_contacts(r):
     rows = [[row["body"], row["field"], f"{float(row['cell']):.2f}", row["place"], count(row["triangles"]),
-             f"{float(row['median_us']):.0f}", f"{float(row['p99_us']):.0f}"] for row in r.mesh_contacts.rows]
+             count(row["median_us"]), count(row["p99_us"])] for row in r.mesh_contacts.rows]
     return markdown(["body", "field", ">cell", "place", ">triangles near", ">median, µs", ">p99, µs"], rows)
 
 
