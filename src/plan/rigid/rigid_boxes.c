@@ -79,16 +79,18 @@ static void free_links(pir_rigid_leaf *leaf) {
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
     const uint32_t first = job->leaves;
     const pir_rotation_box box = job->leaf[leaf].box;
-    for (uint32_t i = 0; i < 2; i++)
-        add_leaf(job, pir_rotation_box_half(box, i), leaf);
+    for (uint32_t i = 0; i < 8; i++)
+        add_leaf(job, pir_rotation_box_child(box, i), leaf);
     for (uint32_t t = 0; t < job->leaf[leaf].touches && job->status == PIR_OK; t++) {
         const uint32_t other = job->leaf[leaf].touch[t].other;
         drop_touch(&job->leaf[other], leaf);
-        for (uint32_t i = 0; i < 2 && job->status == PIR_OK; i++)
+        for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
             touch_both(job, first + i, other);
     }
-    if (job->status == PIR_OK)
-        touch_both(job, first, first + 1);
+    // eighths share the middle
+    for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
+        for (uint32_t k = 0; k < i; k++)
+            touch_both(job, first + i, first + k);
     pir_rigid_leaf *old = &job->leaf[leaf];
     free_links(old);
     job->kept -= pir_box_parts_size(&old->inner);

@@ -161,7 +161,7 @@ static void list_doubted(pir_rigid_job *job) {
     job->listed = 0;
     // in the beginning all middles are looked at
     for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++)
-        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.halvings < PIR_ROTATION_HALVINGS &&
+        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.level < PIR_ROTATION_LEVELS &&
             pir_rigid_grow(job, (void **)&job->list, &job->list_room, job->listed + 1, sizeof *job->list))
             job->list[job->listed++] = i;
     free(is_doubted);
@@ -172,19 +172,19 @@ static uint32_t divide(pir_rigid_job *job) {
     uint32_t count = 0;
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
-        if (job->alive < job->question->most_boxes) {
+        if (job->alive + 7 <= job->question->most_boxes) {
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
     return count;
 }
 
-/* Keeps of the list those boxes whose middles are to be known, and are not yet: cubes. */
+/* Keeps of the list those boxes whose middles are to be known, and are not yet. */
 static uint32_t keep_unknown(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (!leaf->is_full && leaf->box.halvings % 3 == 0)
+        if (!leaf->is_full)
             kept[count++] = job->list[i];
     }
     return count;

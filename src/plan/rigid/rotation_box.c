@@ -15,19 +15,20 @@ static pir_quat quat_of(const double q[4]) {
 
 pir_rotation_box pir_rotation_box_root(uint32_t number) {
     const uint32_t c = number / 4;
-    return (pir_rotation_box){(uint8_t)(number % 4), 3, {c & 1, c >> 1 & 1, c >> 2 & 1}};
+    return (pir_rotation_box){(uint8_t)(number % 4), 1, {c & 1, c >> 1 & 1, c >> 2 & 1}};
 }
 
-pir_rotation_box pir_rotation_box_half(pir_rotation_box box, uint32_t number) {
-    uint32_t *at = &box.at[box.halvings++ % 3];
-    *at = 2 * *at + number;
-    return box;
+pir_rotation_box pir_rotation_box_child(pir_rotation_box box, uint32_t number) {
+    pir_rotation_box child = {box.chart, (uint8_t)(box.level + 1), {0, 0, 0}};
+    for (int k = 0; k < 3; k++)
+        child.at[k] = 2 * box.at[k] + (number >> k & 1);
+    return child;
 }
 
 void pir_rotation_box_bounds(pir_rotation_box box, int32_t ret_low[4], int32_t ret_high[4]) {
+    const int32_t width = 2 * ONE >> box.level;
     for (int c = 0, k = 0; c < 4; c++) {
         const bool is_one = c == box.chart;
-        const int32_t width = 2 * ONE >> (box.halvings + 2 - k) / 3;
         ret_low[c] = is_one ? ONE : (int32_t)box.at[k] * width - ONE;
         ret_high[c] = is_one ? ONE : ret_low[c] + width;
         k += !is_one;
