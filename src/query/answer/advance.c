@@ -104,13 +104,17 @@ pir_status pir_query_time_of_impact(pir_query *query, const pir_query_input *inp
     on.middling = middling(on.start);
     if (pir_unit_of(motion->turn, &on.axis, &part, &exponent))
         on.angle = ldexp(part, exponent);
-    on.advance =
-        (pir_advance){.body = {p->vertex, p->vertex_count, input->radius_p, reach_of(p), motion->way, motion->turn},
-                      .motion = motion,
-                      .tolerance = tolerance,
-                      .until = 1,
-                      .steps = MOST_QUERIES,
-                      .ask = ask};
+    on.advance = (pir_advance){.body = {.point = p->vertex,
+                                        .count = p->vertex_count,
+                                        .radius = input->radius_p,
+                                        .reach = reach_of(p),
+                                        .way = motion->way,
+                                        .turn = motion->turn},
+                               .motion = motion,
+                               .tolerance = tolerance,
+                               .until = 1,
+                               .steps = MOST_QUERIES,
+                               .ask = ask};
     status = pir_advance_run(&on.advance);
     pir_polytope_release(p);
     if (status != PIR_OK)
