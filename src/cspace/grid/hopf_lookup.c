@@ -80,7 +80,7 @@ static double cosine_of_rest(double a, double b) {
     return a >= b ? 1 : a * b + sqrt((1 - a * a) * (1 - b * b));
 }
 
-/* Those of the circles that any point of a square needs, to `ret_list`; how many. */
+/* Lists the circles that any point of a square needs in `ret_list`; returns their number. */
 static uint32_t list_needed(const struct cell_lists *listing, const struct cell_square *square, const uint32_t *list,
                             uint32_t count, uint32_t *ret_list) {
     const double u = square->u, v = square->v, size = square->size;
