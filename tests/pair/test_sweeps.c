@@ -497,17 +497,24 @@ static void go_along(hand *h, double x0, double x1, double y) {
     h->second.pose_p.translation = (pir_vec3){x1, y, 0};
 }
 
-static pir_sweep_result ask(const hand *h, pir_status expected) {
+/* Sweeps along a screw of P, or from the first placement to the second where there is none. */
+static pir_sweep_result ask_screw(const hand *h, const pir_exact_motion *screw, pir_status expected) {
     pir_pair *pair;
     pir_workspace *workspace;
     pir_sweep_result sweep = {.from = -1};
     assert_int_equal(pir_pair_create(h->p, h->q, NULL, &pair), PIR_OK);
     assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    assert_int_equal(pir_pair_sweep(pair, workspace, &h->first, &h->second, h->budget, &sweep), expected);
+    const pir_status status = screw ? pir_pair_sweep_screw(pair, workspace, &h->first, screw, h->budget, &sweep)
+                                    : pir_pair_sweep(pair, workspace, &h->first, &h->second, h->budget, &sweep);
+    assert_int_equal(status, expected);
     assert_true(expected == PIR_OK || sweep.from == -1);
     pir_pair_destroy(pair);
     pir_workspace_destroy(workspace);
     return sweep;
+}
+
+static pir_sweep_result ask(const hand *h, pir_status expected) {
+    return ask_screw(h, NULL, expected);
 }
 
 static void outcomes_known_by_hand(void **state) {
@@ -540,19 +547,6 @@ static void outcomes_known_by_hand(void **state) {
     sweep = ask(&h, PIR_OK);
     assert_true(sweep.outcome == PIR_SWEEP_FREE && sweep.queries == 2);
     pir_polytope_release(cube);
-}
-
-static pir_sweep_result ask_screw(const hand *h, const pir_exact_motion *screw, pir_status expected) {
-    pir_pair *pair;
-    pir_workspace *workspace;
-    pir_sweep_result sweep = {.from = -1};
-    assert_int_equal(pir_pair_create(h->p, h->q, NULL, &pair), PIR_OK);
-    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
-    assert_int_equal(pir_pair_sweep_screw(pair, workspace, &h->first, screw, h->budget, &sweep), expected);
-    assert_true(expected == PIR_OK || sweep.from == -1);
-    pir_pair_destroy(pair);
-    pir_workspace_destroy(workspace);
-    return sweep;
 }
 
 /* A blade that turns comes down upon a plate, or by it, whatever it turns by: its way is proportional to the angle. */
