@@ -20,6 +20,11 @@ static inline pir_vec3 pir_vec_scale(pir_vec3 a, double s) {
     return (pir_vec3){a.x * s, a.y * s, a.z * s};
 }
 
+/* a + s·b. */
+static inline pir_vec3 pir_vec_along(pir_vec3 a, double s, pir_vec3 b) {
+    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
 static inline double pir_vec_dot(pir_vec3 a, pir_vec3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

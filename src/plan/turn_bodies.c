@@ -5,35 +5,21 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec.h"
+
 #define GRID_BITS  24
 #define KEPT       0x1p-22 /* of the size: how far points of inner pieces stay within half-spaces, unrounded */
 #define MARGIN     0x1p-18 /* by which outer pieces are grown */
 #define ROOM       0x1p-14 /* of the size */
 #define EDGE_PARTS 2
 
-static double dot(pir_vec3 a, pir_vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static pir_vec3 sum_of(pir_vec3 a, double s, pir_vec3 b) {
-    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static pir_vec3 times(double s, pir_vec3 a) {
-    return (pir_vec3){s * a.x, s * a.y, s * a.z};
-}
-
-static double length_of(pir_vec3 a) {
-    return sqrt(dot(a, a));
-}
-
 static void set_form(pir_quat p, pir_quat q, pir_vec3 row[3]) {
     const double ww = p.w * q.w, xx = p.x * q.x, yy = p.y * q.y, zz = p.z * q.z, scale = 1 / (ww + xx + yy + zz);
     const double xy = p.x * q.y + p.y * q.x, yz = p.y * q.z + p.z * q.y, zx = p.z * q.x + p.x * q.z;
     const double wx = p.w * q.x + p.x * q.w, wy = p.w * q.y + p.y * q.w, wz = p.w * q.z + p.z * q.w;
-    row[0] = times(scale, (pir_vec3){ww + xx - yy - zz, xy - wz, zx + wy});
-    row[1] = times(scale, (pir_vec3){xy + wz, ww - xx + yy - zz, yz - wx});
-    row[2] = times(scale, (pir_vec3){zx - wy, yz + wx, ww - xx - yy + zz});
+    row[0] = pir_vec_scale((pir_vec3){ww + xx - yy - zz, xy - wz, zx + wy}, scale);
+    row[1] = pir_vec_scale((pir_vec3){xy + wz, ww - xx + yy - zz, yz - wx}, scale);
+    row[2] = pir_vec_scale((pir_vec3){zx - wy, yz + wx, ww - xx - yy + zz}, scale);
 }
 
 pir_turn_forms pir_turn_forms_of(const pir_plan_turns *turns) {
@@ -51,20 +37,20 @@ pir_turn_forms pir_turn_forms_of(const pir_plan_turns *turns) {
 
 static pir_vec3 turned(const pir_turn_forms *forms, int which, pir_vec3 v) {
     const pir_vec3 *row = forms->row[which];
-    return (pir_vec3){dot(row[0], v), dot(row[1], v), dot(row[2], v)};
+    return (pir_vec3){pir_vec_dot(row[0], v), pir_vec_dot(row[1], v), pir_vec_dot(row[2], v)};
 }
 
 static double size_of(const pir_polytope *piece) {
     double size = 0;
     for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++)
-        size = fmax(size, length_of(pir_polytope_vertex(piece, v)));
+        size = fmax(size, pir_vec_length(pir_polytope_vertex(piece, v)));
     return size;
 }
 
 static pir_vec3 mean_of(const pir_vec3 *v, size_t count) {
     pir_vec3 mean = {0, 0, 0};
     for (size_t i = 0; i < count; i++)
-        mean = sum_of(mean, 1 / (double)count, v[i]);
+        mean = pir_vec_along(mean, 1 / (double)count, v[i]);
     return mean;
 }
 
@@ -72,7 +58,7 @@ static pir_vec3 middle_of(const pir_polytope *piece) {
     const uint32_t count = pir_polytope_vertex_count(piece);
     pir_vec3 mean = {0, 0, 0};
     for (uint32_t v = 0; v < count; v++)
-        mean = sum_of(mean, 1 / (double)count, pir_polytope_vertex(piece, v));
+        mean = pir_vec_along(mean, 1 / (double)count, pir_polytope_vertex(piece, v));
     return mean;
 }
 
@@ -88,11 +74,11 @@ static void list_halves(const pir_polytope *piece, const pir_turn_forms *forms, 
     for (uint32_t i = 0; i < pir_polytope_facet_count(piece); i++) {
         const pir_vec3 n = pir_polytope_normal(piece, i);
         pir_polytope_facet(piece, i, corner);
-        const double d = dot(n, pir_polytope_vertex(piece, corner[0]));
+        const double d = pir_vec_dot(n, pir_polytope_vertex(piece, corner[0]));
         for (int k = 0; k < forms->count; k++) {
             const pir_vec3 to = turned(forms, k, n);
-            const double length = length_of(to);
-            halves->n[halves->count] = times(1 / length, to);
+            const double length = pir_vec_length(to);
+            halves->n[halves->count] = pir_vec_scale(to, 1 / length);
             halves->d[halves->count++] = d / length;
         }
     }
@@ -110,7 +96,8 @@ static size_t list_points(const pir_polytope *piece, const pir_turn_forms *forms
         for (uint32_t i = 0; i < size; i++) {
             const uint32_t a = corner[i], b = corner[(i + 1) % size];
             for (int part = 1; part < EDGE_PARTS && a < b; part++)
-                x[count++] = sum_of(times((double)part / EDGE_PARTS, x[a]), 1 - (double)part / EDGE_PARTS, x[b]);
+                x[count++] =
+                    pir_vec_along(pir_vec_scale(x[a], (double)part / EDGE_PARTS), 1 - (double)part / EDGE_PARTS, x[b]);
         }
     }
     return count;
@@ -120,7 +107,8 @@ static size_t list_points(const pir_polytope *piece, const pir_turn_forms *forms
 static double part_within(const struct halves *halves, pir_vec3 middle, double size, pir_vec3 way) {
     double part = 1;
     for (size_t i = 0; i < halves->count; i++) {
-        const double room = halves->d[i] - dot(halves->n[i], middle) - KEPT * size, need = dot(halves->n[i], way);
+        const double room = halves->d[i] - pir_vec_dot(halves->n[i], middle) - KEPT * size,
+                     need = pir_vec_dot(halves->n[i], way);
         if (!(room > ROOM * size))
             return 0;
         if (need * part > room)
@@ -149,10 +137,10 @@ static pir_status piece_within(const pir_polytope *piece, const pir_plan_turns *
         const size_t count = list_points(piece, &forms, corner, x);
         bool has_room = true;
         for (size_t i = 0; i < count && has_room; i++) {
-            const pir_vec3 way = sum_of(x[i], -1, middle);
+            const pir_vec3 way = pir_vec_along(x[i], -1, middle);
             const double part = part_within(&halves, middle, size, way);
             has_room = part > 0;
-            x[i] = rounded(sum_of(middle, part, way), grid);
+            x[i] = rounded(pir_vec_along(middle, part, way), grid);
         }
         // flat ones have no inside
         if (has_room && pir_polytope_create(x, count, NULL, ret_inner) == PIR_ERR_MEMORY)
@@ -171,8 +159,8 @@ static double thickness_of(const pir_polytope *piece, uint32_t *corner) {
     double least = INFINITY;
     for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
         pir_polytope_facet(piece, f, corner);
-        const pir_vec3 way = sum_of(pir_polytope_vertex(piece, corner[0]), -1, own);
-        least = fmin(least, dot(pir_polytope_normal(piece, f), way));
+        const pir_vec3 way = pir_vec_along(pir_polytope_vertex(piece, corner[0]), -1, own);
+        least = fmin(least, pir_vec_dot(pir_polytope_normal(piece, f), way));
     }
     return least;
 }
@@ -194,7 +182,7 @@ static pir_status piece_around(const pir_polytope *piece, const pir_plan_turns *
                 x[(size_t)v * forms.count + k] = turned(&forms, k, pir_polytope_vertex(piece, v));
         const pir_vec3 middle = mean_of(x, count);
         for (size_t i = 0; i < count; i++)
-            x[i] = rounded(sum_of(middle, 1 + MARGIN, sum_of(x[i], -1, middle)), grid);
+            x[i] = rounded(pir_vec_along(middle, 1 + MARGIN, pir_vec_along(x[i], -1, middle)), grid);
         status = pir_polytope_create(x, count, NULL, ret_outer);
     }
     free(corner);

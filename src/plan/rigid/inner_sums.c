@@ -7,6 +7,8 @@
 
 #include <pirouette/sum.h>
 
+#include "base/vec.h"
+
 #define GRID_BITS 24
 #define KEPT      0x1p-22 /* of the size: how far points stay within half-spaces, unrounded */
 #define ROUNDED   0x1p-44 /* of the size: more than what doubles lose */
@@ -17,25 +19,9 @@
 #define GAIN      0.04 /* the least part of OUTWARDS that a point is to be before its facet */
 #define FAR_OUT   10   /* how much less a corner counts that is beyond the bounds by one */
 
-static double dot(pir_vec3 a, pir_vec3 b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-static pir_vec3 sum_of(pir_vec3 a, double s, pir_vec3 b) {
-    return (pir_vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
-}
-
-static pir_vec3 times(double s, pir_vec3 a) {
-    return (pir_vec3){s * a.x, s * a.y, s * a.z};
-}
-
-static pir_vec3 cross(pir_vec3 a, pir_vec3 b) {
-    return (pir_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
 static pir_vec3 turned(const pir_turn_forms *forms, int which, pir_vec3 v) {
     const pir_vec3 *row = forms->row[which];
-    return (pir_vec3){dot(row[0], v), dot(row[1], v), dot(row[2], v)};
+    return (pir_vec3){pir_vec_dot(row[0], v), pir_vec_dot(row[1], v), pir_vec_dot(row[2], v)};
 }
 
 /* --- memory --- */
@@ -97,8 +83,8 @@ static void add_side(struct faces *f, uint32_t facet, uint32_t a, uint32_t b) {
             f->side[e][1] = facet;
             return;
         }
-    const pir_vec3 way = sum_of(f->v[b], -1, f->v[a]);
-    f->way[f->edges] = times(1 / sqrt(dot(way, way)), way);
+    const pir_vec3 way = pir_vec_along(f->v[b], -1, f->v[a]);
+    f->way[f->edges] = pir_vec_scale(way, 1 / sqrt(pir_vec_dot(way, way)));
     f->edge[f->edges][0] = a;
     f->edge[f->edges][1] = b;
     f->side[f->edges++][0] = facet;
@@ -110,7 +96,7 @@ static void read_facets(const pir_polytope *piece, uint32_t *corner, bool up, st
         const uint32_t size = pir_polytope_facet_size(piece, i);
         pir_polytope_facet(piece, i, corner);
         f->n[i] = pir_polytope_normal(piece, i);
-        f->d[i] = dot(f->n[i], f->v[corner[0]]);
+        f->d[i] = pir_vec_dot(f->n[i], f->v[corner[0]]);
         for (uint32_t k = 0; k < size; k++)
             if ((corner[k] < corner[(k + 1) % size]) == up)
                 add_side(f, i, corner[k], corner[(k + 1) % size]);
@@ -133,8 +119,8 @@ static bool read_faces(pir_inner_search *s, const pir_polytope *piece, struct fa
         return false;
     for (uint32_t i = 0; i < vertices; i++) {
         f->v[i] = pir_polytope_vertex(piece, i);
-        f->size = fmax(f->size, sqrt(dot(f->v[i], f->v[i])));
-        f->middle = sum_of(f->middle, 1.0 / vertices, f->v[i]);
+        f->size = fmax(f->size, sqrt(pir_vec_dot(f->v[i], f->v[i])));
+        f->middle = pir_vec_along(f->middle, 1.0 / vertices, f->v[i]);
     }
     read_facets(piece, corner, true, f);
     read_facets(piece, corner, false, f);
@@ -148,7 +134,7 @@ static pir_vec3 point_of(const struct faces *f, uint32_t i) {
     if (i == f->vertices)
         return f->middle;
     const uint32_t *edge = f->edge[i - f->vertices - 1];
-    return times(0.5, sum_of(f->v[edge[0]], 1, f->v[edge[1]]));
+    return pir_vec_scale(pir_vec_along(f->v[edge[0]], 1, f->v[edge[1]]), 0.5);
 }
 
 /* Turns what is of use of a robot's piece. */
@@ -163,10 +149,10 @@ static bool turn_faces(pir_inner_search *s, struct faces *f) {
         return false;
     for (int k = 0; k <= s->forms.count; k++) {
         for (uint32_t a = 0; a < f->facets; a++)
-            f->back[a * forms + k] = times(-1, turned(&s->forms, k, f->n[a]));
+            f->back[a * forms + k] = pir_vec_scale(turned(&s->forms, k, f->n[a]), -1);
         for (uint32_t e = 0; e < f->edges; e++) {
             f->turned_way[e * forms + k] = turned(&s->forms, k, f->way[e]);
-            f->moment[e * forms + k] = turned(&s->forms, k, cross(f->way[e], f->v[f->edge[e][0]]));
+            f->moment[e * forms + k] = turned(&s->forms, k, pir_vec_cross(f->way[e], f->v[f->edge[e][0]]));
         }
         for (uint32_t p = 0; p < f->points; p++)
             f->turned_point[p * forms + k] = turned(&s->forms, k, point_of(f, p));
@@ -205,7 +191,7 @@ static bool open_search(struct sum_search *q) {
         for (uint32_t p = 0; p < r->points; p++) {
             double most = -INFINITY;
             for (int k = 0; k < count; k++)
-                most = fmax(most, dot(o->n[j], r->turned_point[p * (count + 1) + k]));
+                most = fmax(most, pir_vec_dot(o->n[j], r->turned_point[p * (count + 1) + k]));
             q->reach[j * r->points + p] = most;
         }
     memcpy(q->o, o->v, o->vertices * sizeof *q->o);
@@ -221,11 +207,11 @@ static inline bool point_stays(const struct sum_search *q, uint32_t facet, uint3
 static bool facet_has(struct sum_search *q, uint32_t facet, uint32_t o, pir_vec3 x) {
     int8_t *known = &q->holds[facet * q->os + o];
     if (*known < 0) {
-        const pir_vec3 way = sum_of(x, -1, q->o[o]), *n = &q->robot->back[facet * (q->forms->count + 1)];
+        const pir_vec3 way = pir_vec_along(x, -1, q->o[o]), *n = &q->robot->back[facet * (q->forms->count + 1)];
         const double most = q->robot->d[facet] - q->kept;
-        *known = dot(n[q->forms->count], way) <= most;
+        *known = pir_vec_dot(n[q->forms->count], way) <= most;
         for (int k = 0; k < q->forms->count && *known; k++)
-            *known = dot(n[k], way) <= most;
+            *known = pir_vec_dot(n[k], way) <= most;
     }
     return *known;
 }
@@ -234,15 +220,15 @@ static bool facet_has(struct sum_search *q, uint32_t facet, uint32_t o, pir_vec3
 static void set_nearest(struct sum_search *q, pir_vec3 x) {
     const struct faces *o = q->obstacle;
     for (uint32_t e = 0; e < o->edges; e++) {
-        const pir_vec3 a = o->v[o->edge[e][0]], b = o->v[o->edge[e][1]], way = sum_of(b, -1, a);
-        const double part = dot(sum_of(x, -1, a), way) / dot(way, way);
-        q->o[o->vertices + e] = part <= 0 ? a : part >= 1 ? b : sum_of(a, part, way);
+        const pir_vec3 a = o->v[o->edge[e][0]], b = o->v[o->edge[e][1]], way = pir_vec_along(b, -1, a);
+        const double part = pir_vec_dot(pir_vec_along(x, -1, a), way) / pir_vec_dot(way, way);
+        q->o[o->vertices + e] = part <= 0 ? a : part >= 1 ? b : pir_vec_along(a, part, way);
     }
     for (uint32_t j = 0; j < o->facets; j++) {
-        const pir_vec3 at = sum_of(x, o->d[j] - dot(o->n[j], x), o->n[j]);
+        const pir_vec3 at = pir_vec_along(x, o->d[j] - pir_vec_dot(o->n[j], x), o->n[j]);
         bool is_own = true;
         for (uint32_t i = 0; i < o->facets && is_own; i++)
-            is_own = i == j || dot(o->n[i], at) <= o->d[i] - q->rounded;
+            is_own = i == j || pir_vec_dot(o->n[i], at) <= o->d[i] - q->rounded;
         q->o[o->vertices + o->edges + j] = is_own ? at : o->v[0];
     }
     for (uint32_t i = 0; i < q->os * q->robot->facets; i++)
@@ -254,7 +240,7 @@ static bool obstacle_holds(struct sum_search *q, pir_vec3 x) {
     const struct faces *o = q->obstacle;
     for (uint32_t j = 0; j < o->facets; j++) {
         bool has = false;
-        const double along = dot(o->n[j], x);
+        const double along = pir_vec_dot(o->n[j], x);
         for (uint32_t p = 0; p < q->robot->points && !has; p++)
             has = point_stays(q, j, p, along);
         if (!has)
@@ -262,7 +248,7 @@ static bool obstacle_holds(struct sum_search *q, pir_vec3 x) {
     }
     for (uint32_t e = 0; e < o->edges; e++) {
         const uint32_t *side = o->side[e];
-        const double along[2] = {dot(o->n[side[0]], x), dot(o->n[side[1]], x)};
+        const double along[2] = {pir_vec_dot(o->n[side[0]], x), pir_vec_dot(o->n[side[1]], x)};
         q->open[0][e] = true;
         for (uint32_t p = 0; p < q->robot->points && q->open[0][e]; p++)
             q->open[0][e] = !(point_stays(q, side[0], p, along[0]) && point_stays(q, side[1], p, along[1]));
@@ -293,12 +279,13 @@ static bool edges_have(const struct sum_search *q, pir_vec3 e, uint32_t f, pir_v
     const struct faces *r = q->robot;
     const pir_vec3 *to = &r->turned_way[f * (count + 1)], *moment = &r->moment[f * (count + 1)];
     const bool is_own = p == r->edge[f][0];
-    const pir_vec3 of_p = cross(r->way[f], r->v[p]);
+    const pir_vec3 of_p = pir_vec_cross(r->way[f], r->v[p]);
     for (int i = 0; i <= count; i++) {
         const int k = i == 0 ? count : i - 1;
-        const pir_vec3 n = cross(e, to[k]);
-        const double most = dot(n, way) + dot(e, is_own ? moment[k] : turned(q->forms, k, of_p)) + q->rounded;
-        if (!(most <= 0 && most * most >= q->kept * q->kept * dot(n, n)))
+        const pir_vec3 n = pir_vec_cross(e, to[k]);
+        const double most =
+            pir_vec_dot(n, way) + pir_vec_dot(e, is_own ? moment[k] : turned(q->forms, k, of_p)) + q->rounded;
+        if (!(most <= 0 && most * most >= q->kept * q->kept * pir_vec_dot(n, n)))
             return false;
     }
     return true;
@@ -308,23 +295,23 @@ static bool edges_have(const struct sum_search *q, pir_vec3 e, uint32_t f, pir_v
 static uint32_t farthest(const struct faces *f, pir_vec3 along) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < f->vertices; i++)
-        best = dot(f->v[i], along) > dot(f->v[best], along) ? i : best;
+        best = pir_vec_dot(f->v[i], along) > pir_vec_dot(f->v[best], along) ? i : best;
     return best;
 }
 
 static bool pair_holds(const struct sum_search *q, uint32_t e, uint32_t f, double sign, pir_vec3 x) {
     const struct faces *r = q->robot, *b = q->obstacle;
     const int middle = q->forms->count;
-    const pir_vec3 own = times(sign, b->way[e]);
-    const pir_vec3 n = cross(own, r->turned_way[f * (middle + 1) + middle]);
+    const pir_vec3 own = pir_vec_scale(b->way[e], sign);
+    const pir_vec3 n = pir_vec_cross(own, r->turned_way[f * (middle + 1) + middle]);
     const pir_vec3 *row = q->forms->row[middle];
     // the transposed turns a direction back
     const pir_vec3 back = {row[0].x * n.x + row[1].x * n.y + row[2].x * n.z,
                            row[0].y * n.x + row[1].y * n.y + row[2].y * n.z,
                            row[0].z * n.x + row[1].z * n.y + row[2].z * n.z};
-    const uint32_t o[2] = {b->edge[e][0], farthest(b, n)}, p[2] = {r->edge[f][0], farthest(r, times(-1, back))};
+    const uint32_t o[2] = {b->edge[e][0], farthest(b, n)}, p[2] = {r->edge[f][0], farthest(r, pir_vec_scale(back, -1))};
     for (int i = 0; i < 4; i++)
-        if (edges_have(q, own, f, sum_of(x, -1, b->v[o[i & 1]]), p[i >> 1]))
+        if (edges_have(q, own, f, pir_vec_along(x, -1, b->v[o[i & 1]]), p[i >> 1]))
             return true;
     return false;
 }
@@ -361,25 +348,29 @@ static pir_vec3 rounded(pir_vec3 x, double grid) {
     return (pir_vec3){rint(x.x / grid) * grid, rint(x.y / grid) * grid, rint(x.z / grid) * grid};
 }
 
-/* Moves a point o − R·p inwards until it is within; false where it never is. */
-static bool move_within(struct sum_search *q, pir_vec3 o, pir_vec3 *x) {
-    const struct faces *r = q->robot, *b = q->obstacle;
-    const pir_vec3 inwards = sum_of(b->middle, -1, o);
-    const double length = sqrt(dot(inwards, inwards)), far = INWARDS * r->size;
-    const pir_vec3 to =
-        sum_of(sum_of(o, length > far ? far / length : 1, inwards), -1, turned(q->forms, q->forms->count, r->middle));
-    const pir_vec3 from = *x, way = sum_of(to, -1, from);
-    double good = 1, bad = 0;
-    if (!is_within(q, to))
-        return false;
-    for (int i = 0; i < IN_STEPS; i++) {
+/* The farthest part of a way from a point, between a good one and a bad one, at which it is within. */
+static double last_within(struct sum_search *q, pir_vec3 from, pir_vec3 way, double good, double bad, int steps) {
+    for (int i = 0; i < steps; i++) {
         const double half = (good + bad) / 2;
-        if (is_within(q, sum_of(from, half, way)))
+        if (is_within(q, pir_vec_along(from, half, way)))
             good = half;
         else
             bad = half;
     }
-    *x = sum_of(from, good, way);
+    return good;
+}
+
+/* Moves a point o − R·p inwards until it is within; false where it never is. */
+static bool move_within(struct sum_search *q, pir_vec3 o, pir_vec3 *x) {
+    const struct faces *r = q->robot, *b = q->obstacle;
+    const pir_vec3 inwards = pir_vec_along(b->middle, -1, o);
+    const double length = sqrt(pir_vec_dot(inwards, inwards)), far = INWARDS * r->size;
+    const pir_vec3 to = pir_vec_along(pir_vec_along(o, length > far ? far / length : 1, inwards), -1,
+                                      turned(q->forms, q->forms->count, r->middle));
+    const pir_vec3 from = *x, way = pir_vec_along(to, -1, from);
+    if (!is_within(q, to))
+        return false;
+    *x = pir_vec_along(from, last_within(q, from, way, 1, 0, IN_STEPS), way);
     return true;
 }
 
@@ -401,16 +392,8 @@ static size_t list_points(struct sum_search *q, const pir_mesh *mesh, double gri
 
 /* Moves a point outwards as far as it stays within. */
 static double move_outwards(struct sum_search *q, pir_vec3 along, double most, pir_vec3 *x) {
-    const pir_vec3 from = *x;
-    double good = 0, bad = most;
-    for (int i = 0; i < OUT_STEPS; i++) {
-        const double half = (good + bad) / 2;
-        if (is_within(q, sum_of(from, half, along)))
-            good = half;
-        else
-            bad = half;
-    }
-    *x = sum_of(from, good, along);
+    const double good = last_within(q, *x, along, 0, most, OUT_STEPS);
+    *x = pir_vec_along(*x, good, along);
     return good;
 }
 
@@ -431,7 +414,7 @@ static size_t add_before(struct sum_search *q, const pir_polytope *made, double 
         pir_vec3 middle = {0, 0, 0};
         pir_polytope_facet(made, f, corner);
         for (uint32_t k = 0; k < size; k++)
-            middle = sum_of(middle, 1.0 / size, pir_polytope_vertex(made, corner[k]));
+            middle = pir_vec_along(middle, 1.0 / size, pir_polytope_vertex(made, corner[k]));
         const double most = OUTWARDS * q->robot->size;
         if (beyond(q, middle) > 0)
             continue;
@@ -479,15 +462,15 @@ static void choose_simplex(const pir_vec3 *v, uint32_t count, pir_vec3 *rest, ui
     memcpy(rest, v, count * sizeof *v);
     chosen[0] = 0;
     for (uint32_t i = 0; i < count; i++)
-        rest[i] = sum_of(v[i], -1, v[0]);
+        rest[i] = pir_vec_along(v[i], -1, v[0]);
     for (int n = 1; n < 4; n++) {
         uint32_t best = 0;
         for (uint32_t i = 1; i < count; i++)
-            best = dot(rest[i], rest[i]) > dot(rest[best], rest[best]) ? i : best;
+            best = pir_vec_dot(rest[i], rest[i]) > pir_vec_dot(rest[best], rest[best]) ? i : best;
         chosen[n] = best;
-        const pir_vec3 way = times(1 / sqrt(dot(rest[best], rest[best])), rest[best]);
+        const pir_vec3 way = pir_vec_scale(rest[best], 1 / sqrt(pir_vec_dot(rest[best], rest[best])));
         for (uint32_t i = 0; i < count; i++)
-            rest[i] = sum_of(rest[i], -dot(rest[i], way), way);
+            rest[i] = pir_vec_along(rest[i], -pir_vec_dot(rest[i], way), way);
     }
 }
 
@@ -501,8 +484,8 @@ static uint32_t farthest_beyond(const struct sum_search *q, const pir_polytope *
         for (uint32_t f = 0; f < pir_polytope_facet_count(made); f++) {
             uint32_t corner[PIR_INNER_CORNERS];
             pir_polytope_facet(made, f, corner);
-            const pir_vec3 way = sum_of(v[i], -1, pir_polytope_vertex(made, corner[0]));
-            const double far = weight * dot(pir_polytope_normal(made, f), way);
+            const pir_vec3 way = pir_vec_along(v[i], -1, pir_polytope_vertex(made, corner[0]));
+            const double far = weight * pir_vec_dot(pir_polytope_normal(made, f), way);
             best = far > most ? i : best;
             most = fmax(most, far);
         }
@@ -615,14 +598,14 @@ double pir_inner_depth(const pir_inner_search *search, uint32_t pair, const doub
         const pir_vec3 n = r->back[a * (middle + 1) + middle];
         double most = -INFINITY;
         for (uint32_t o = 0; o < b->vertices; o++)
-            most = fmax(most, dot(n, b->v[o]));
-        least = fmin(least, r->d[a] + most - dot(n, x));
+            most = fmax(most, pir_vec_dot(n, b->v[o]));
+        least = fmin(least, r->d[a] + most - pir_vec_dot(n, x));
     }
     for (uint32_t j = 0; j < b->facets && least > 0; j++) {
         double most = -INFINITY;
         for (uint32_t p = 0; p < r->vertices; p++)
-            most = fmax(most, -dot(b->n[j], r->turned_point[p * (middle + 1) + middle]));
-        least = fmin(least, b->d[j] + most - dot(b->n[j], x));
+            most = fmax(most, -pir_vec_dot(b->n[j], r->turned_point[p * (middle + 1) + middle]));
+        least = fmin(least, b->d[j] + most - pir_vec_dot(b->n[j], x));
     }
     return least;
 }
