@@ -215,7 +215,7 @@ static int lowest_bit(const pir_course *course) {
     return low;
 }
 
-/* Both bodies and the way, on their common denominator. False when out of memory. */
+/* Makes the points of both bodies and the way, on their common denominator. False when out of memory. */
 static bool make_scaled(pir_course *course) {
     turned_body body[2];
     mpz_t common;

@@ -139,14 +139,6 @@ pir_status pir_pair_cast(pir_pair *pair, pir_workspace *workspace, const pir_pai
 
 /* --- times of impact --- */
 
-/* The distance of a polytope's farthest vertex from its origin, rounded up. */
-static double reach_of(const pir_polytope *p) {
-    double most = 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, pir_vec_length(p->vertex[v]));
-    return most * (1 + 0x1p-48) + 0x1p-1074;
-}
-
 pir_status pir_pair_time_of_impact(pir_pair *pair, pir_workspace *workspace, const pir_pair_input *input,
                                    const pir_motion *motion, double tolerance, pir_impact *ret_impact) {
     if (!pair || !workspace || !input || !motion || !ret_impact)
@@ -156,13 +148,15 @@ pir_status pir_pair_time_of_impact(pir_pair *pair, pir_workspace *workspace, con
         status = pir_pair_check(input);
     if (status != PIR_OK)
         return status;
+    const pir_polytope *p = pair->p, *q = pair->q;
+    const pir_vec3 origin = {0, 0, 0};
     pir_pair_input at = *input;
     pir_flight_end end;
-    pir_flight flight = {.p = pair->p, .from = input->pose_p, .motion = motion, .tolerance = tolerance};
-    flight.reach = reach_of(pair->p);
-    flight.size = flight.reach + reach_of(pair->q) + input->radius_p + input->radius_q +
-                  pir_vec_length(input->pose_p.translation) + pir_vec_length(input->pose_q.translation) +
-                  pir_vec_length(motion->way);
+    pir_flight flight = {.p = p, .from = input->pose_p, .motion = motion, .tolerance = tolerance};
+    flight.reach = pir_parted_reach(p->vertex, p->vertex_count, origin);
+    flight.size = flight.reach + pir_parted_reach(q->vertex, q->vertex_count, origin) + input->radius_p +
+                  input->radius_q + pir_vec_length(input->pose_p.translation) +
+                  pir_vec_length(input->pose_q.translation) + pir_vec_length(motion->way);
     status = pir_pair_fly(pair, workspace, &at, &flight, 1, &end);
     if (status != PIR_OK)
         return status;

@@ -102,13 +102,6 @@ static pir_vec3 turn_of(pir_quat q) {
     return pir_vec_scale(v, 32 * series);
 }
 
-static double reach_of(const pir_polytope *p, pir_vec3 centre) {
-    double most = 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        most = fmax(most, pir_vec_length(pir_vec_sub(p->vertex[v], centre)));
-    return most * (1 + 0x1p-48) + 0x1p-1074;
-}
-
 static pir_status set_mover(sweep_mover *mover, const pir_polytope *body, const pir_pose pose[2], double radius) {
     pir_rotation relative;
     if (!pir_vec_is_finite(pose[0].translation) || !pir_vec_is_finite(pose[1].translation))
@@ -127,7 +120,7 @@ static pir_status set_mover(sweep_mover *mover, const pir_polytope *body, const 
     mover->parted = (pir_parted){.point = body->vertex,
                                  .count = body->vertex_count,
                                  .radius = radius,
-                                 .reach = reach_of(body, centre),
+                                 .reach = pir_parted_reach(body->vertex, body->vertex_count, centre),
                                  .turn = turn};
     return PIR_OK;
 }
@@ -162,7 +155,7 @@ static void screw_on(sweep_mover *mover, const pir_polytope *body, const pir_exa
     parted->turn = turn_of_screw(motion);
     if (motion->degrees != 0) {
         parted->centre = pir_pose_rotate_inverse(first, pir_vec_sub(motion->pivot, first.translation));
-        parted->reach = reach_of(body, parted->centre);
+        parted->reach = pir_parted_reach(body->vertex, body->vertex_count, parted->centre);
     }
     mover->is_exact = motion->degrees == 0 && pir_vec_size(motion->way) == 0;
     mover->pose[1] = pose_at(mover, 1);

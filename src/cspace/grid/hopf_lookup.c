@@ -26,6 +26,7 @@
 #include <math.h>
 
 #include "base/layout.h"
+#include "base/vec.h"
 #include "cspace/grid/circle.h"
 
 #define MARGIN 1e-12
@@ -60,7 +61,7 @@ static pir_vec3 direction_at(const struct cell_lists *listing, double u, double 
 }
 
 static double cosine_between(pir_vec3 a, pir_vec3 b) {
-    const double cosine = a.x * b.x + a.y * b.y + a.z * b.z;
+    const double cosine = pir_vec_dot(a, b);
     return cosine > 1 ? 1 : cosine < -1 ? -1 : cosine;
 }
 

@@ -21,6 +21,13 @@ struct swing {
     double c, w, a, b, d;
 };
 
+double pir_parted_reach(const pir_vec3 *point, uint32_t count, pir_vec3 centre) {
+    double most = 0;
+    for (uint32_t i = 0; i < count; i++)
+        most = fmax(most, pir_vec_length(pir_vec_sub(point[i], centre)));
+    return most * (1 + 0x1p-48) + 0x1p-1074;
+}
+
 /* Sine and cosine by the series of base/pose.c, the angle taken into one turn first: the same bits everywhere. */
 static void sine_and_cosine(double angle, double *ret_sine, double *ret_cosine) {
     // 2π in two parts; the first has so few bits that its multiples are exact

@@ -24,6 +24,9 @@ typedef struct pir_parted {
     pir_vec3 centre;    /* in the body's frame */
 } pir_parted;
 
+/* The distance of the farthest of some points from a centre, rounded up. */
+double pir_parted_reach(const pir_vec3 *point, uint32_t count, pir_vec3 centre);
+
 /* A plane below the body, and how near the body may come. */
 typedef struct pir_parting {
     pir_vec3 normal; /* unit, towards the body */

@@ -75,7 +75,8 @@ static void place_triangles(pir_scene *scene, const pir_scene_body *body, const 
     }
 }
 
-/* All of a move but what changes the tree, which waits: `replaced` has a place for each piece that has moved. */
+/* Brings bodies to their places, and pieces to their boxes. Changes of the tree wait: `replaced` has a place for each
+ * piece that has moved. */
 static void move_items(pir_scene *scene, uint32_t task, uint32_t begin, uint32_t end) {
     (void)task;
     for (uint32_t i = begin; i < end; i++) {
