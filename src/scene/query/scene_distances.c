@@ -31,23 +31,17 @@ struct distance_list {
     size_t capacity, count;
 };
 
-static pir_status put(struct distance_list *told, pir_scene_distance distance) {
-    pir_scene_answers *answers = &told->scene->answers;
-    size_t at = told->count < told->capacity ? told->count : told->capacity;
-    if (at < told->capacity &&
-        !PIR_GROW(&told->scene->allocator, answers->distance, answers->distance_capacity, (uint32_t)at + 1))
-        return PIR_ERR_MEMORY;
-    told->count++;
-    for (; at > 0; at--) {
-        const pir_scene_distance *before = &answers->distance[at - 1];
-        if (before->body < distance.body || (before->body == distance.body && before->piece < distance.piece))
-            break;
-        if (at < told->capacity)
-            answers->distance[at] = *before;
-    }
-    if (at < told->capacity)
-        answers->distance[at] = distance;
-    return PIR_OK;
+static bool comes_before(const void *x, const void *y) {
+    const pir_scene_distance *a = x, *b = y;
+    return a->body != b->body ? a->body < b->body : a->piece < b->piece;
+}
+
+static pir_status put(struct distance_list *told, const pir_scene_distance *distance) {
+    pir_scene *scene = told->scene;
+    const pir_order order = {sizeof *distance, told->capacity, comes_before};
+    const bool is_put = pir_put_in_order(&scene->allocator, &scene->answers.distance, &scene->answers.distance_capacity,
+                                         &order, distance, &told->count);
+    return is_put ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 static double wanted(const struct gauge *gauge) {
@@ -149,7 +143,7 @@ static pir_status look(void *context, pir_scene_piece *q) {
     gauge.known.piece_user = pir_piece_user(&gauge.probe->scene->bodies, q);
     pir_status status = settle(&gauge, q);
     if (status == PIR_OK && !gauge.beyond)
-        status = put(hold->told, gauge.known);
+        status = put(hold->told, &gauge.known);
     if (status != PIR_OK)
         return pir_fail(gauge.probe->scene->report, status, "distances: body %u, piece %u: %s", (unsigned)q->body,
                         (unsigned)q->number, pir_status_text(status));

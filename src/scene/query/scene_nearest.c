@@ -15,7 +15,8 @@ struct best {
     size_t most, count; /* of the scene's room for such answers */
 };
 
-static bool comes_before(const pir_scene_near *a, const pir_scene_near *b) {
+static bool comes_before(const void *one, const void *other) {
+    const pir_scene_near *a = one, *b = other;
     if (a->result.distance != b->result.distance)
         return a->result.distance < b->result.distance;
     const uint32_t x[4] = {a->body_p, a->body_q, a->piece_p, a->piece_q};
@@ -27,21 +28,12 @@ static bool comes_before(const pir_scene_near *a, const pir_scene_near *b) {
 }
 
 static pir_status put(struct best *best, const pir_scene_near *near) {
-    pir_scene_answers *answers = &best->scene->answers;
-    size_t at = best->count;
-    if (at == best->most) {
-        if (!comes_before(near, &answers->near[at - 1]))
-            return PIR_OK;
-        at--;
-    } else {
-        if (!PIR_GROW(&best->scene->allocator, answers->near, answers->near_capacity, (uint32_t)at + 1))
-            return PIR_ERR_MEMORY;
-        best->count++;
-    }
-    for (; at > 0 && comes_before(near, &answers->near[at - 1]); at--)
-        answers->near[at] = answers->near[at - 1];
-    answers->near[at] = *near;
-    return PIR_OK;
+    pir_scene *scene = best->scene;
+    const pir_order order = {sizeof *near, best->most, comes_before};
+    const bool is_put = pir_put_in_order(&scene->allocator, &scene->answers.near, &scene->answers.near_capacity, &order,
+                                         near, &best->count);
+    best->count = best->count < best->most ? best->count : best->most;
+    return is_put ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 /* How far an answer may be away to be one of the best. */

@@ -189,7 +189,8 @@ static pir_status look_at_surface(struct scene_ray *ray, const pir_scene_body *b
 /* --- all pieces --- */
 
 /* Whether an impact comes before another, or there is no other. */
-static bool comes_before(const pir_impact *a, const pir_impact *b) {
+static bool comes_before(const void *x, const void *y) {
+    const pir_impact *a = x, *b = y;
     if (a->body == PIR_SCENE_NONE || b->body == PIR_SCENE_NONE)
         return a->body != PIR_SCENE_NONE;
     if (a->time != b->time)
@@ -333,20 +334,12 @@ pir_status pir_scene_ray_any(pir_scene *scene, pir_vec3 origin, pir_vec3 way, co
     return status;
 }
 
-/* Puts an impact in its place among those that there are, of which the first `capacity` are kept. */
 static pir_status take_all(struct scene_ray *ray, const pir_impact *impact) {
-    pir_scene_answers *answers = &ray->scene->answers;
-    size_t at = ray->count < ray->capacity ? ray->count : ray->capacity;
-    const bool is_full = at == ray->capacity;
-    if (!is_full && !PIR_GROW(&ray->scene->allocator, answers->impact, answers->impact_capacity, (uint32_t)at + 1))
-        return PIR_ERR_MEMORY;
-    ray->count++;
-    if (is_full && (at == 0 || !comes_before(impact, &answers->impact[--at])))
-        return PIR_OK;
-    for (; at > 0 && comes_before(impact, &answers->impact[at - 1]); at--)
-        answers->impact[at] = answers->impact[at - 1];
-    answers->impact[at] = *impact;
-    return PIR_OK;
+    pir_scene *scene = ray->scene;
+    const pir_order order = {sizeof *impact, ray->capacity, comes_before};
+    const bool is_put = pir_put_in_order(&scene->allocator, &scene->answers.impact, &scene->answers.impact_capacity,
+                                         &order, impact, &ray->count);
+    return is_put ? PIR_OK : PIR_ERR_MEMORY;
 }
 
 pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3 way, const pir_scene_ray_options *options,
