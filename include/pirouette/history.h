@@ -127,7 +127,7 @@ PIR_API pir_status pir_history_ask(pir_history *history, const pir_pair_input *i
 /**
  * Notes pir_scene_create, as the first note.
  *
- * options  NULL for the defaults; its detail, margin, approach, unions and reuse count.
+ * options  NULL for the defaults; its detail, margin, approach, unions and reuse count, `meets` does not.
  *
  * Cost: O(1).
  *

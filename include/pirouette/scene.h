@@ -43,8 +43,8 @@
  *     contact.
  *
  * A pair needs two bodies, one of them moving, and masks that match both ways: the category of each is in the mask of
- * the other. A sensor is told of what overlaps it, and has no contacts: of kinematic bodies too, whatever its own kind.
- * Two sensors do not meet, nor do two surfaces.
+ * the other. options.meets, where there is one, may refuse it. A sensor is told of what overlaps it, and has no
+ * contacts: of kinematic bodies too, whatever its own kind. Two sensors do not meet, nor do two surfaces.
  *
  * A body is known by an id: its number, which tells it from the others that are there, and a generation, which tells it
  * from bodies that had the number before. An id of a body that was removed is refused, also when its number has been
@@ -125,10 +125,18 @@ typedef struct pir_scene_options {
     /** A length ≥ 0: manifolds of bodies that moved by at most this since may be told again; 0 for never. Above 0 of
         PIR_SCENE_MANIFOLDS alone. See above. */
     double reuse;
+    /**
+     * NULL, or whether two bodies meet that kinds and masks let meet: groups, owners, joints. The ids and users are
+     * those of the bodies, the lower number first. The answer is to be the same for as long as neither body is changed
+     * (pir_scene_set_filter, also with what they had, has it asked again), and is asked when boxes come near, by the
+     * thread that calls the scene, and by queries of bodies of the scene. It must not call the scene.
+     */
+    bool (*meets)(void *context, uint32_t body_p, uint64_t user_p, uint32_t body_q, uint64_t user_q);
+    void *meets_context;
 } pir_scene_options;
 
-/** malloc's memory, no budget, manifolds, no margin, approach, unions, report or reuse, one thread, no shapes kept.
-    O(1). */
+/** malloc's memory, no budget, manifolds, no margin, approach, unions, report, reuse or `meets`, one thread, no shapes
+    kept. O(1). */
 static inline pir_scene_options pir_scene_options_default(void) {
     pir_scene_options options;
     memset(&options, 0, sizeof options);

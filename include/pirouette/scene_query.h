@@ -82,6 +82,43 @@ typedef struct pir_scene_hit {
 PIR_API pir_status pir_scene_overlap(pir_scene *scene, const pir_scene_shape *shape, size_t capacity,
                                      pir_scene_hit *ret_hits, size_t *ret_count);
 
+/** A box with edges along the axes of the world, to be asked about. */
+typedef struct pir_scene_box {
+    pir_vec3 low, high;             /**< corners; infinite ones reach as far as any body */
+    uint32_t mask;                  /**< the categories of bodies that it meets */
+    uint32_t except;                /**< a body that it does not meet, or PIR_SCENE_NONE */
+    const pir_query_filter *filter; /**< or NULL */
+} pir_scene_box;
+
+/** The box between two corners, with all in its mask, no body left out, no filter. O(1). */
+static inline pir_scene_box pir_scene_box_default(pir_vec3 low, pir_vec3 high) {
+    const pir_scene_box box = {low, high, UINT32_MAX, PIR_SCENE_NONE, NULL};
+    return box;
+}
+
+/** A piece of a body, or a triangle of its surface, of which nothing else is told. */
+typedef struct pir_scene_part {
+    uint32_t body, piece;
+    uint64_t user, piece_user; /**< the caller's numbers; of a triangle its material */
+} pir_scene_part;
+
+/**
+ * All pieces and triangles whose boxes meet a box, by the numbers of body and piece: the broad phase alone. Each that
+ * shares a point with the box is told. Others are where their own box meets it: this is along the axes of the world, in
+ * floats rounded outward, and holds the radius and half of the scene's margin.
+ *
+ * box                  borrowed for the call.
+ * capacity, ret_parts  room for how many, and that room.
+ * ret_count            how many there are, also beyond the capacity.
+ *
+ * Cost: O(log n) to find the boxes in a scene of n pieces, and O(capacity) for each that is told.
+ *
+ * Errors: PIR_ERR_ARGUMENT (a corner that is lower than the low one), PIR_ERR_NOT_FINITE (one that is no number),
+ * PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_scene_in_box(pir_scene *scene, const pir_scene_box *box, size_t capacity,
+                                    pir_scene_part *ret_parts, size_t *ret_count);
+
 /** Two pieces that are near, or a shape, as P with body_p = PIR_SCENE_NONE, and a piece. */
 typedef struct pir_scene_near {
     uint32_t body_p, body_q, piece_p, piece_q;
@@ -301,6 +338,22 @@ PIR_API pir_status pir_scene_ray_all(pir_scene *scene, pir_vec3 origin, pir_vec3
  */
 PIR_API pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion,
                                   double tolerance, pir_impact *ret_impact);
+
+/**
+ * All pieces and triangles that a shape meets as it moves through the scene, each as if the others were not there: when
+ * it first comes within `tolerance` of it. They are in the order in which pir_scene_cast prefers them, so the first is
+ * what that tells: by time, those in which the shape begins by their depth, then by numbers.
+ *
+ * shape, motion, tolerance  as of pir_scene_cast.
+ * capacity, ret_impacts     room for how many, and that room: for the first of them.
+ * ret_count                 how many there are, also beyond the capacity.
+ *
+ * Cost: that of pir_scene_cast for a way on which nothing stops it, and O(capacity) for each hit.
+ *
+ * Errors: those of pir_scene_cast.
+ */
+PIR_API pir_status pir_scene_cast_all(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion,
+                                      double tolerance, size_t capacity, pir_impact *ret_impacts, size_t *ret_count);
 
 /**
  * A cast of a body of the scene from its present pose on, with the bodies that it may meet, all others at rest: the

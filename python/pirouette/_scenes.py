@@ -7,7 +7,7 @@ from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Bools, Bytes, Floats, Indices, dtype_of, fail_at, indices, number, pointer, poses, whole
+from ._arrays import Bools, Bytes, Floats, Indices, dtype_of, fail_at, indices, number, pointer, poses, vectors, whole
 from ._check import Handle, InputError, check, error
 from ._motions import FirstContact, exact_motion, first_contact_of
 from ._native import ffi, lib
@@ -296,26 +296,47 @@ class Scene(Handle):
         if status == lib.PIR_ERR_NOT_FINITE and not np.isfinite(rays).all():
             fail_at(status, "origins or ways", int(np.isfinite(rays).all(axis=1).argmin()))
         check(status, "origins, ways or radius", self._report)
-        found = found.reshape(shape)
-        hit = np.asarray(found["body"] != lib.PIR_SCENE_NONE)
-        return SceneHits(hit, found["body"].astype(np.uint32), found["piece_q"].astype(np.uint32),
-                         np.where(hit, found["time"], np.nan), np.where(hit[..., None], found["point"], np.nan),
-                         np.where(hit[..., None], found["normal"], np.nan))
+        return _hits_of(found.reshape(shape))
 
     def cast(self, shape: Body, a: npt.ArrayLike, b: npt.ArrayLike, *, tolerance: float = 1e-6, radius: float = 0.0,
              mask: int = 2**32 - 1, ignored: npt.ArrayLike = ()) -> "tuple[int, Impact]":
         """The first body that a shape comes within `tolerance` of, moved from pose `a` to pose `b` at constant speed:
         its id, -1 for none, and the impact."""
-        (at, _), (to, _), out = poses("a", a), poses("b", b), indices("ignored", ignored)
-        if len(at) != 1 or len(to) != 1 or not np.isfinite(to).all() or not at[0, :4].any() or not to[0, :4].any():
-            raise InputError("a or b: it is not one pose")
-        asked, kept = _shape(shape, at, radius, mask, out)
-        motion, found = ffi.new("pir_motion *", motion_between(at[0], to[0])), ffi.new("pir_impact *")
+        asked, motion, kept = _way(shape, a, b, radius, mask, ignored)
+        found = ffi.new("pir_impact *")
         with self._held() as scene:
             check(lib.pir_scene_cast(scene, asked, motion, number("tolerance", tolerance), found),
                   "shape, pose or tolerance", self._report)
         del kept
         return (-1 if found.body == lib.PIR_SCENE_NONE else int(found.body)), impact_of(found)
+
+    def cast_all(self, shape: Body, a: npt.ArrayLike, b: npt.ArrayLike, *, tolerance: float = 1e-6,
+                 radius: float = 0.0, mask: int = 2**32 - 1, ignored: npt.ArrayLike = ()) -> SceneHits:
+        """All pieces of bodies that a shape comes within `tolerance` of, moved from pose `a` to pose `b`, each as if
+        the others were not there: first the one that `cast` tells, then by time."""
+        asked, motion, kept = _way(shape, a, b, radius, mask, ignored)
+        found = _all("pir_impact", lambda capacity, room, count: self._check(
+            lib.pir_scene_cast_all, "shape, pose or tolerance", asked, motion, number("tolerance", tolerance),
+            capacity, room, count))
+        del kept
+        return _hits_of(found)
+
+    def in_box(self, low: npt.ArrayLike, high: npt.ArrayLike, *, mask: int = 2**32 - 1,
+               ignored: npt.ArrayLike = ()) -> "tuple[Indices, Indices]":
+        """Ids and pieces of all bodies whose boxes along the axes meet the box between two corners: nothing else of
+        them is looked at. Corners may be infinite."""
+        (least, _), (most, _), out = vectors("low", low, 3), vectors("high", high, 3), indices("ignored", ignored)
+        if len(least) != 1 or len(most) != 1:
+            raise InputError("low or high: it is not one point")
+        corners = np.concatenate([least, most])
+        left_out = _filter(out)
+        box = ffi.new("pir_scene_box *", {"mask": whole("mask", mask, 0, 2**32 - 1), "except": lib.PIR_SCENE_NONE,
+                                          "filter": left_out})
+        ffi.memmove(box, pointer(corners, "char *"), 48)
+        found = _all("pir_scene_part", lambda capacity, room, count: self._check(
+            lib.pir_scene_in_box, "low or high", box, capacity, room, count))
+        del left_out
+        return found["body"].astype(np.uint32), found["piece"].astype(np.uint32)
 
     def first_contact(self, body: int, *, axis: npt.ArrayLike = (0, 0, 0), degrees: float = 0.0,
                       pivot: npt.ArrayLike = (0, 0, 0), way: npt.ArrayLike = (0, 0, 0)) -> "tuple[int, FirstContact]":
@@ -331,18 +352,12 @@ class Scene(Handle):
     def overlaps(self, shape: Body, pose: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), *, radius: float = 0.0,
                  mask: int = 2**32 - 1, ignored: npt.ArrayLike = ()) -> "tuple[Indices, Indices]":
         """Ids and pieces of all bodies that share a point with a shape."""
-        (at, _), out, count, capacity = poses("pose", pose), indices("ignored", ignored), ffi.new("size_t *"), 64
+        (at, _), out = poses("pose", pose), indices("ignored", ignored)
         asked, kept = _shape(shape, at, radius, mask, out)
-        with self._held() as scene:
-            while True:
-                found = np.empty(capacity, dtype_of("pir_scene_hit"))
-                check(lib.pir_scene_overlap(scene, asked, capacity, pointer(found, "pir_scene_hit *"), count),
-                      "shape or pose", self._report)
-                if count[0] <= capacity:
-                    break
-                capacity = count[0]
+        found = _all("pir_scene_hit", lambda capacity, room, count: self._check(
+            lib.pir_scene_overlap, "shape or pose", asked, capacity, room, count))
         del kept
-        return found["body"][:count[0]].astype(np.uint32), found["piece"][:count[0]].astype(np.uint32)
+        return found["body"].astype(np.uint32), found["piece"].astype(np.uint32)
 
     def nearest(self, shape: Body, pose: npt.ArrayLike = (0, 0, 0, 1, 0, 0, 0), cutoff: float = np.inf,
                 most: int = 1, *, radius: float = 0.0, mask: int = 2**32 - 1,
@@ -357,6 +372,10 @@ class Scene(Handle):
                   self._report)
         del kept
         return [(n.body_q, n.piece_q, n.result.distance) for n in found[0:count[0]]]
+
+    def _check(self, call: Any, where: str, *arguments: Any) -> None:
+        with self._held() as scene:
+            check(call(scene, *arguments), where, self._report)
 
     # --- states in bytes ---
 
@@ -414,6 +433,35 @@ class Scene(Handle):
     def __repr__(self) -> str:
         return f"<Scene: {len(self)} bodies>"
 
+
+
+def _all(kind: str, ask: Any) -> Any:
+    """All that a call with a capacity finds, an element each: `ask(capacity, room, count)`, again while there is more
+    than room for it."""
+    capacity, count = 64, ffi.new("size_t *")
+    while True:
+        found = np.empty(capacity, dtype_of(kind))
+        ask(capacity, pointer(found, kind + " *"), count)
+        if count[0] <= capacity:
+            return found[:count[0]]
+        capacity = count[0]
+
+
+def _hits_of(found: Any) -> SceneHits:
+    hit = np.asarray(found["body"] != lib.PIR_SCENE_NONE)
+    return SceneHits(hit, found["body"].astype(np.uint32), found["piece_q"].astype(np.uint32),
+                     np.where(hit, found["time"], np.nan), np.where(hit[..., None], found["point"], np.nan),
+                     np.where(hit[..., None], found["normal"], np.nan))
+
+
+def _way(shape: Any, a: npt.ArrayLike, b: npt.ArrayLike, radius: float, mask: int,
+         ignored: npt.ArrayLike) -> Tuple[Any, Any, Any]:
+    """A shape that goes from pose to pose, its motion, and what must live as long."""
+    (at, _), (to, _), out = poses("a", a), poses("b", b), indices("ignored", ignored)
+    if len(at) != 1 or len(to) != 1 or not np.isfinite(to).all() or not at[0, :4].any() or not to[0, :4].any():
+        raise InputError("a or b: it is not one pose")
+    asked, kept = _shape(shape, at, radius, mask, out)
+    return asked, ffi.new("pir_motion *", motion_between(at[0], to[0])), kept
 
 
 def _filter(ignored: Indices) -> Any:

@@ -95,6 +95,8 @@ def test_odd_values_of_the_rest(value):
     survives("radius", lambda: scene.rays([0, 0, 0], [0, 0, 1], radius=value))
     survives("", lambda: scene.cast(cube, rest, value))
     survives("", lambda: scene.overlaps(cube, value))
+    survives("", lambda: scene.cast_all(cube, rest, value))
+    survives("", lambda: scene.in_box(value, [9, 9, 9]))
     survives("category", lambda: scene.set_filter(body, value, 1))
     survives("body", lambda: scene.disable(value))
     survives("user", lambda: scene.set_user(body, value))

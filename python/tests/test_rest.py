@@ -291,6 +291,13 @@ def test_questions_to_a_scene_leave_bodies_out():
     at, impact = scene.cast(cube, [0, 0, 0, 1, -5, 0, 0], [0, 0, 0, 1, 15, 0, 0], ignored=bodies[:1])
     assert at == bodies[1] and impact.outcome == "hit" and impact.time == pytest.approx(6 / 20, abs=1e-6)
     assert scene.cast(cube, [0, 0, 0, 1, -5, 3, 0], [0, 0, 0, 1, 15, 3, 0])[0] == -1
+    hits = scene.cast_all(cube, [0, 0, 0, 1, -5, 0, 0], [0, 0, 0, 1, 15, 0, 0], ignored=bodies[2:3])
+    assert hits.body.tolist() == [bodies[0], bodies[1], bodies[3]]
+    assert hits.time * 20 == pytest.approx([4, 6, 10], abs=1e-5) and hits.hit.all()
+    ids, pieces = scene.in_box([1, -np.inf, 0], [4, np.inf, 0], mask=7)
+    assert ids.tolist() == bodies[1:3] and pieces.tolist() == [0, 0]
+    with pytest.raises(pirouette.InputError, match="the low corner is at 4, the high one at 1"):
+        scene.in_box([4, 0, 0], [1, 0, 0])
     ids, pieces = scene.overlaps(pirouette.Polytope.shape("box?x=9&y=1&z=1"), ignored=[bodies[1]])
     assert ids.tolist() == [bodies[0], bodies[2]] and pieces.tolist() == [0, 0]
     assert scene.nearest(cube, ignored=bodies[:1], most=9)[0][0] == bodies[1]

@@ -107,6 +107,18 @@ static pir_status ask_scene_ray_all(struct world *w, size_t capacity, void *arra
                              count);
 }
 
+static pir_status ask_scene_cast_all(struct world *w, size_t capacity, void *array, size_t *count) {
+    pir_scene_shape shape = shape_of(w);
+    shape.pose.translation.z -= 8;
+    const pir_motion motion = {{0, 0, 16}, {0, 0, 0}, 0};
+    return pir_scene_cast_all(w->scene, &shape, &motion, 1e-3, capacity, array, count);
+}
+
+static pir_status ask_scene_in_box(struct world *w, size_t capacity, void *array, size_t *count) {
+    const pir_scene_box box = pir_scene_box_default((pir_vec3){-1, -1, w->height - 9}, (pir_vec3){1, 1, 9});
+    return pir_scene_in_box(w->scene, &box, capacity, array, count);
+}
+
 static pir_status ask_surface_ray_all(struct world *w, size_t capacity, void *array, size_t *count) {
     const pir_surface_ray ray = {{0.1, 0.2, w->height - 8}, {0, 0, 16}, PIR_RAY_BOTH};
     return pir_surface_ray_all((pir_surface_ref){w->mesh, NULL}, &ray, capacity, array, count);
@@ -150,6 +162,8 @@ static const struct {
     {"pir_scene_overlap", ask_scene_overlap, sizeof(pir_scene_hit), true},
     {"pir_scene_distances", ask_scene_distances, sizeof(pir_scene_distance), true},
     {"pir_scene_ray_all", ask_scene_ray_all, sizeof(pir_impact), true},
+    {"pir_scene_cast_all", ask_scene_cast_all, sizeof(pir_impact), true},
+    {"pir_scene_in_box", ask_scene_in_box, sizeof(pir_scene_part), true},
     {"pir_surface_ray_all", ask_surface_ray_all, sizeof(pir_ray_hit), false},
     {"pir_surface_box", ask_surface_box, sizeof(uint32_t), false},
     {"pir_trimesh_pair_within", ask_trimesh_pair_within, sizeof(pir_triangle_pair), false},

@@ -167,6 +167,9 @@ static void motions_are_reported(pir_scene *scene, pir_polytope *cube) {
     TELLS(pir_scene_cast(scene, NULL, &cases[0].motion, 1, &impact), BAD, "cast: shape is NULL");
     TELLS(pir_scene_cast(scene, &shape, NULL, 1, &impact), BAD, "cast: motion is NULL");
     TELLS(pir_scene_cast(scene, &shape, &cases[0].motion, 1, NULL), BAD, "cast: ret_impact is NULL");
+    size_t count;
+    TELLS(pir_scene_cast_all(scene, &shape, &cases[0].motion, 1, 1, NULL, &count), BAD, "cast: ret_impacts is NULL");
+    TELLS(pir_scene_cast_all(scene, &shape, &cases[0].motion, 1, 1, &impact, NULL), BAD, "cast: ret_count is NULL");
     TELLS(pir_scene_time_of_impact(scene, 0, NULL, 1, &impact), BAD, "time of impact: motion is NULL");
     TELLS(pir_scene_time_of_impact(scene, 0, &cases[0].motion, 1, NULL), BAD, "time of impact: ret_impact is NULL");
     TELLS(pir_scene_time_of_impact(scene, 9, &cases[0].motion, 1, &impact), BAD, "time of impact: there is no body 9");
@@ -237,6 +240,9 @@ static pir_status ask_all(pir_scene *scene, pir_polytope *cube, pir_height_field
     pir_scene_hit hits[40];
     pir_scene_distance distances[40];
     pir_impact impacts[40];
+    pir_scene_part parts[40];
+    const pir_scene_box everywhere =
+        pir_scene_box_default((pir_vec3){-HUGE_VAL, -HUGE_VAL, -9}, (pir_vec3){HUGE_VAL, HUGE_VAL, 9});
     size_t count;
     uint32_t number;
     ground.kind = PIR_BODY_KINEMATIC;
@@ -253,6 +259,8 @@ static pir_status ask_all(pir_scene *scene, pir_polytope *cube, pir_height_field
     status = status ? status : pir_scene_distances(scene, &shape, 9, (pir_accuracy){0, 0}, 40, distances, &count);
     status = status ? status : pir_scene_ray_all(scene, shape.pose.translation, motion.way, NULL, 40, impacts, &count);
     status = status ? status : pir_scene_cast(scene, &shape, &motion, 1e-3, impacts);
+    status = status ? status : pir_scene_cast_all(scene, &shape, &motion, 1e-3, 40, impacts, &count);
+    status = status ? status : pir_scene_in_box(scene, &everywhere, 40, parts, &count);
     status = status ? status : pir_scene_time_of_impact(scene, 0, &motion, 1e-3, impacts);
     const size_t size = pir_scene_serialised_size(scene);
     assert_true(size <= sizeof bytes);

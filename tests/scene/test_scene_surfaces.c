@@ -167,6 +167,51 @@ static void expect_proven(twin_scenes *t, const pir_scene_shape *shape, const pi
     expect(is_near, "case %llu: %zu are near at %a", (unsigned long long)number, count, impact->time);
 }
 
+static bool comes_before(const pir_impact *a, const pir_impact *b) {
+    return a->body != b->body ? a->body < b->body : a->piece_q < b->piece_q;
+}
+
+static int by_number(const void *a, const void *b) {
+    return comes_before(a, b) ? -1 : comes_before(b, a);
+}
+
+/*
+ * All that both tell is the same but for the order of equal times; what one alone tells comes hardly nearer than the
+ * tolerance.
+ */
+static void expect_same_of_all(twin_scenes *t, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
+                               uint64_t number) {
+    static pir_impact a[MOST], b[MOST];
+    static pir_scene_near near[MOST];
+    size_t of_a, of_b, count;
+    assert_int_equal(pir_scene_cast_all(t->with, shape, motion, tolerance, MOST, a, &of_a), PIR_OK);
+    assert_int_equal(pir_scene_cast_all(t->without, shape, motion, tolerance, MOST, b, &of_b), PIR_OK);
+    assert_true(of_a <= MOST && of_b <= MOST);
+    qsort(a, of_a, sizeof *a, by_number);
+    qsort(b, of_b, sizeof *b, by_number);
+    for (size_t i = 0, k = 0; i < of_a || k < of_b;) {
+        const bool only_a = k == of_b || (i < of_a && comes_before(&a[i], &b[k])),
+                   only_b = i == of_a || (k < of_b && comes_before(&b[k], &a[i]));
+        const pir_impact *one = only_b ? &b[k] : &a[i];
+        pir_scene_shape at = *shape;
+        bool is_near = false;
+        at.pose = pir_pose_integrate(shape->pose, motion->way, motion->turn, one->time);
+        assert_int_equal(pir_scene_nearest(t->without, &at, 2 * tolerance, MOST, near, &count), PIR_OK);
+        for (size_t n = 0; n < count; n++)
+            is_near |= near[n].body_q == one->body && near[n].piece_q == one->piece_q &&
+                       (near[n].result.distance > 0.4 * tolerance || (!only_a && !only_b) || one->time == 0);
+        expect(is_near, "case %llu: body %u piece %u at %a: %s", (unsigned long long)number, one->body, one->piece_q,
+               one->time,
+               only_a   ? "with surfaces alone"
+               : only_b ? "without surfaces alone"
+                        : "both");
+        expect(only_a || only_b || fabs(a[i].time - b[k].time) <= 0x1p-12, "case %llu: body %u piece %u at %a, not %a",
+               (unsigned long long)number, a[i].body, a[i].piece_q, a[i].time, b[k].time);
+        i += !only_b;
+        k += !only_a;
+    }
+}
+
 static void casts_of(twin_scenes *t, const pir_scene_shape *shape, uint64_t number) {
     const double tolerance = 1e-6;
     pir_motion motion = {.way = random_way(t)};
@@ -180,6 +225,7 @@ static void casts_of(twin_scenes *t, const pir_scene_shape *shape, uint64_t numb
     expect(same_impact(&a, &b, way, room), "case %llu: body %u piece %u at %a, not %u %u at %a",
            (unsigned long long)number, a.body, a.piece_q, a.time, b.body, b.piece_q, b.time);
     expect_proven(t, shape, &motion, tolerance, &a, number);
+    expect_same_of_all(t, shape, &motion, tolerance, number);
     const uint32_t body = test_random_below(&t->random, 2) ? t->ground : t->body[number % TWIN_BODIES];
     pir_status with = pir_scene_time_of_impact(t->with, body, &motion, tolerance, &a);
     assert_int_equal(pir_scene_time_of_impact(t->without, body, &motion, tolerance, &b), with);
@@ -203,14 +249,6 @@ static void casts_meet_what_they_meet_of_flat_pieces(void **state) {
 }
 
 /* --- rays --- */
-
-static bool comes_before(const pir_impact *a, const pir_impact *b) {
-    return a->body != b->body ? a->body < b->body : a->piece_q < b->piece_q;
-}
-
-static int by_number(const void *a, const void *b) {
-    return comes_before(a, b) ? -1 : comes_before(b, a);
-}
 
 static size_t all_of(pir_scene *scene, pir_vec3 origin, pir_vec3 way, pir_ray_sides sides, pir_impact *hits) {
     size_t count;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * The first hit of a moving shape: the least over the pieces that its way may meet, each by pir_pair_fly, and over
+ * The hits of a moving shape, the first or all: of the pieces that its way may meet, each by pir_pair_fly, and of
  * triangles, each by doubles where these settle it.
  */
 #include "scene/query/scene_cast.h"
@@ -10,15 +10,10 @@
 #include "scene/query/core_flight.h"
 #include "scene/query/near_pieces.h"
 #include "scene/query/swept_pieces.h"
+#include "scene/world/grow.h"
 #include "scene/world/near_triangles.h"
 #include "scene/world/surfaces.h"
 #include "scene/world/triangles.h"
-
-/* The impact that is first, so far; and how deep the shape begins in that body, below 0 where it does not. */
-struct first_met {
-    pir_impact impact;
-    double depth;
-};
 
 struct flight {
     pir_scene *scene;
@@ -27,10 +22,12 @@ struct flight {
     const pir_motion *motion;
     double tolerance;
     pir_box box; /* all its way is in it */
-    struct first_met *first;
-    double until;         /* the time of that */
-    bool by_doubles;      /* whether `core` has been begun */
-    pir_core_flight core; /* where the probe begins */
+    pir_status (*take)(struct flight *flight, const pir_scene_met *met);
+    pir_scene_met *first;   /* so far, where that alone is wanted */
+    size_t capacity, count; /* else of the scene's room for hits */
+    double until;           /* times beyond this are not looked for */
+    bool by_doubles;        /* whether `core` has been begun */
+    pir_core_flight core;   /* where the probe begins */
 };
 
 static double length(pir_vec3 v) {
@@ -44,7 +41,7 @@ static double size_of(const struct flight *flight, const pir_scene_body *body) {
 }
 
 static void set_met(const struct flight *flight, const pir_scene_piece *piece, const pir_flight_end *end,
-                    struct first_met *met) {
+                    pir_scene_met *met) {
     met->impact = (pir_impact){.body = piece->body,
                                .piece_p = flight->own_piece,
                                .piece_q = piece->number,
@@ -58,7 +55,7 @@ static void set_met(const struct flight *flight, const pir_scene_piece *piece, c
 }
 
 /* The time at which the probe comes within the tolerance of a piece, where that is at most `until`. */
-static pir_status advance(const struct flight *flight, pir_scene_piece *piece, double until, struct first_met *met,
+static pir_status advance(const struct flight *flight, pir_scene_piece *piece, double until, pir_scene_met *met,
                           bool *ret_meets) {
     pir_scene *scene = flight->scene;
     const pir_flight way = {.p = flight->probe.extent.polytope,
@@ -103,7 +100,8 @@ static pir_box box_of_way(const struct flight *flight) {
 }
 
 /* By time, then by how deep the shape begins in it, then by number. */
-static bool comes_before(const struct first_met *met, const struct first_met *other) {
+static bool comes_before(const void *x_met, const void *y_met) {
+    const pir_scene_met *met = x_met, *other = y_met;
     const pir_impact *a = &met->impact, *b = &other->impact;
     if (b->body == PIR_SCENE_NONE || a->time != b->time)
         return b->body == PIR_SCENE_NONE || a->time < b->time;
@@ -121,25 +119,32 @@ static pir_status fail(const struct flight *flight, pir_status status, const pir
                     (unsigned)piece->number, pir_status_text(status));
 }
 
-static void take(struct flight *flight, const struct first_met *met) {
+static pir_status take_first(struct flight *flight, const pir_scene_met *met) {
     if (comes_before(met, flight->first)) {
         *flight->first = *met;
         flight->until = met->impact.time;
     }
+    return PIR_OK;
+}
+
+static pir_status take_all(struct flight *flight, const pir_scene_met *met) {
+    pir_scene *scene = flight->scene;
+    const pir_order order = {sizeof *met, flight->capacity, comes_before};
+    const bool is_put = pir_put_in_order(&scene->allocator, &scene->answers.met, &scene->answers.met_capacity, &order,
+                                         met, &flight->count);
+    return is_put ? PIR_OK : pir_fail(scene->report, PIR_ERR_MEMORY, "cast: no memory for %zu hits", flight->count + 1);
 }
 
 static pir_status look(void *context, pir_scene_piece *piece) {
     struct flight *flight = context;
-    struct first_met met;
+    pir_scene_met met;
     bool meets = false;
     if (!pir_box_meets(&flight->box, &piece->tight))
         return PIR_OK;
-    pir_status status = advance(flight, piece, flight->until, &met, &meets);
+    const pir_status status = advance(flight, piece, flight->until, &met, &meets);
     if (status != PIR_OK)
         return fail(flight, status, piece);
-    if (meets)
-        take(flight, &met);
-    return PIR_OK;
+    return meets ? flight->take(flight, &met) : PIR_OK;
 }
 
 /* --- triangles --- */
@@ -178,7 +183,7 @@ static bool look_at_triangle(void *context, const pir_met_triangle *met) {
     }
     if (!met_at.hits)
         return true;
-    const struct first_met hit = {
+    const pir_scene_met hit = {
         .impact = {.body = on->number,
                    .piece_p = flight->own_piece,
                    .piece_q = met->number,
@@ -189,8 +194,8 @@ static bool look_at_triangle(void *context, const pir_met_triangle *met) {
                    .point = met_at.point,
                    .witness = met_at.witness},
         .depth = -1};
-    take(flight, &hit);
-    return true;
+    on->status = flight->take(flight, &hit);
+    return on->status == PIR_OK;
 }
 
 /* A box that holds the probe at time 0 however it turns until time 1, and is wider by what it is to come near. */
@@ -227,9 +232,7 @@ static pir_status look_at_leaf(void *context, pir_scene_piece *piece) {
                                             : look(flight, piece);
 }
 
-static pir_status fly(struct flight *flight, struct first_met *first) {
-    flight->first = first;
-    flight->until = first->impact.time;
+static pir_status fly(struct flight *flight) {
     flight->box = box_of_way(flight);
     flight->by_doubles = pir_core_flight_begin(&flight->core, &flight->probe, flight->motion, flight->tolerance);
     const pir_box from = box_of_turns(flight);
@@ -278,15 +281,13 @@ static pir_near_search near_piece(const struct flight *flight, const pir_probe *
 }
 
 /* The first hit of a surface that moves: of its triangles that may come to a piece, for each. */
-static pir_status fly_surface(struct flight *flight, uint32_t number, struct first_met *first) {
+static pir_status fly_surface(struct flight *flight, uint32_t number) {
     pir_scene *scene = flight->scene;
     const pir_scene_body *body = &scene->bodies.body[number];
     const double far =
         length(flight->motion->turn) * body->reach * (1 + 0x1p-40) + length(flight->motion->way) + flight->tolerance;
     const pir_box box = pir_box_wider(&scene->bodies.piece[body->first].tight, far);
     pir_status status = PIR_OK;
-    flight->first = first;
-    flight->until = first->impact.time;
     for (uint32_t leaf = pir_tree_first(&scene->tree, &box); leaf != PIR_TREE_NONE && status == PIR_OK;
          leaf = pir_tree_next(&scene->tree, &box, leaf)) {
         pir_scene_piece *q = &scene->bodies.piece[pir_tree_item(&scene->tree, leaf)];
@@ -323,26 +324,33 @@ static pir_status check(const pir_scene *scene, const char *call, const pir_moti
     return PIR_OK;
 }
 
-static const struct first_met nothing = {
+static const pir_scene_met nothing = {
     .impact = {.body = PIR_SCENE_NONE, .piece_q = PIR_SCENE_NONE, .outcome = PIR_CAST_MISS, .time = 1}, .depth = -1};
+
+/* Checks what is asked, and begins a flight that takes nothing yet. */
+static pir_status begin(pir_scene *scene, const char *missing, const pir_scene_shape *shape, const pir_motion *motion,
+                        double tolerance, struct flight *flight) {
+    flight->scene = scene;
+    flight->own_piece = 0;
+    flight->motion = motion;
+    flight->tolerance = tolerance;
+    flight->until = 1;
+    pir_status status = pir_scene_given(scene, "cast", !shape ? "shape" : !motion ? "motion" : missing);
+    if (status == PIR_OK)
+        status = check(scene, "cast", motion, tolerance);
+    return status == PIR_OK ? pir_probe_of_shape(scene, shape, &flight->probe) : status;
+}
 
 pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion, double tolerance,
                           pir_impact *ret_impact) {
     struct flight flight; // its points are written when they are needed
-    flight.scene = scene;
-    flight.own_piece = 0;
-    flight.motion = motion;
-    flight.tolerance = tolerance;
-    const char *missing = !shape ? "shape" : !motion ? "motion" : !ret_impact ? "ret_impact" : NULL;
-    pir_status status = pir_scene_given(scene, "cast", missing);
-    if (status == PIR_OK)
-        status = check(scene, "cast", motion, tolerance);
-    if (status == PIR_OK)
-        status = pir_probe_of_shape(scene, shape, &flight.probe);
+    pir_scene_met first = nothing;
+    pir_status status = begin(scene, ret_impact ? NULL : "ret_impact", shape, motion, tolerance, &flight);
     if (status != PIR_OK)
         return status;
-    struct first_met first = nothing;
-    status = fly(&flight, &first);
+    flight.take = take_first;
+    flight.first = &first;
+    status = fly(&flight);
     if (status != PIR_OK)
         return status;
     pir_name_impact(scene, &first.impact);
@@ -350,10 +358,31 @@ pir_status pir_scene_cast(pir_scene *scene, const pir_scene_shape *shape, const 
     return PIR_OK;
 }
 
+pir_status pir_scene_cast_all(pir_scene *scene, const pir_scene_shape *shape, const pir_motion *motion,
+                              double tolerance, size_t capacity, pir_impact *ret_impacts, size_t *ret_count) {
+    struct flight flight; // as above
+    const char *missing = !ret_impacts && capacity > 0 ? "ret_impacts" : !ret_count ? "ret_count" : NULL;
+    pir_status status = begin(scene, missing, shape, motion, tolerance, &flight);
+    if (status != PIR_OK)
+        return status;
+    flight.take = take_all;
+    flight.capacity = capacity;
+    flight.count = 0;
+    status = fly(&flight);
+    if (status != PIR_OK)
+        return status;
+    for (size_t i = 0; i < flight.count && i < capacity; i++) {
+        ret_impacts[i] = scene->answers.met[i].impact;
+        pir_name_impact(scene, &ret_impacts[i]);
+    }
+    *ret_count = flight.count;
+    return PIR_OK;
+}
+
 pir_status pir_scene_fly_body(pir_scene *scene, uint32_t body, const pir_pose *from, const pir_motion *motion,
                               double tolerance, pir_impact *ret_impact) {
     const bool has_surface = pir_body_has_surface(&scene->bodies.body[body]);
-    struct first_met first = nothing;
+    pir_scene_met first = nothing;
     pir_status status = PIR_OK;
     for (uint32_t p = scene->bodies.body[body].first; status == PIR_OK && p != PIR_PIECE_NONE;
          p = scene->bodies.piece[p].next) {
@@ -364,11 +393,14 @@ pir_status pir_scene_fly_body(pir_scene *scene, uint32_t body, const pir_pose *f
         flight.own_piece = scene->bodies.piece[p].number;
         flight.motion = motion;
         flight.tolerance = tolerance;
+        flight.take = take_first;
+        flight.first = &first;
+        flight.until = first.impact.time;
         if (from && (pir_place_make(*from, &place) != PIR_OK ||
                      !pir_place_box(&place, &flight.probe.extent, flight.probe.radius, &flight.probe.box)))
             return PIR_ERR_LIMIT;
         flight.probe.pose = from ? *from : flight.probe.pose;
-        status = has_surface ? fly_surface(&flight, body, &first) : fly(&flight, &first);
+        status = has_surface ? fly_surface(&flight, body) : fly(&flight);
     }
     if (status != PIR_OK)
         return status;

@@ -316,10 +316,17 @@ static bool kinds_meet(const pir_scene_body *p, const pir_scene_body *q) {
     return (p->sensor && q->kind == PIR_BODY_KINEMATIC) || (q->sensor && p->kind == PIR_BODY_KINEMATIC);
 }
 
+/* Whether the caller lets two bodies meet. */
+static bool may_meet(const pir_bodies *bodies, uint32_t a, uint32_t b) {
+    const uint32_t p = a < b ? a : b, q = a < b ? b : a;
+    return bodies->meets(bodies->meets_context, pir_body_id(bodies, p), bodies->body[p].user, pir_body_id(bodies, q),
+                         bodies->body[q].user);
+}
+
 bool pir_bodies_meet(const pir_bodies *bodies, uint32_t a, uint32_t b) {
     const pir_scene_body *p = &bodies->body[a], *q = &bodies->body[b];
     return a != b && !p->disabled && !q->disabled && kinds_meet(p, q) && (p->category & q->mask) != 0 &&
-           (q->category & p->mask) != 0 && !(p->sensor && q->sensor);
+           (q->category & p->mask) != 0 && !(p->sensor && q->sensor) && (!bodies->meets || may_meet(bodies, a, b));
 }
 
 /* --- names --- */

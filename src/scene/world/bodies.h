@@ -100,6 +100,9 @@ typedef struct pir_bodies {
     uint32_t *triangle;                                 /* a table of the pieces that are triangles: triangles.c */
     uint32_t triangle_slots, triangle_count;
     pir_kept_triangle *kept; /* PIR_TRIANGLES_KEPT of them, or NULL */
+    /* The caller's, or NULL: whether two bodies meet, by id and user. */
+    bool (*meets)(void *context, uint32_t body_p, uint64_t user_p, uint32_t body_q, uint64_t user_q);
+    void *meets_context;
 } pir_bodies;
 
 /* A pose that has been checked. */

@@ -91,6 +91,8 @@ pir_status pir_scene_create(const pir_scene_options *options, pir_scene **ret_sc
     scene->clock_context = used.clock_context;
     scene->report = used.report;
     pir_bodies_init(&scene->bodies);
+    scene->bodies.meets = used.meets;
+    scene->bodies.meets_context = used.meets_context;
     pir_scene_pairs_init(&scene->pairs);
     status = make_workers(scene, &used);
     if (status != PIR_OK) {
@@ -152,6 +154,7 @@ void pir_scene_destroy(pir_scene *scene) {
     PIR_FREE(a, scene->answers.near, scene->answers.near_capacity);
     PIR_FREE(a, scene->answers.distance, scene->answers.distance_capacity);
     PIR_FREE(a, scene->answers.impact, scene->answers.impact_capacity);
+    PIR_FREE(a, scene->answers.met, scene->answers.met_capacity);
     pir_tree_finish(&scene->tree, a);
     pir_bodies_finish(&scene->bodies, a);
     pir_kept_shapes_drop(&scene->shapes, a);

@@ -137,13 +137,20 @@ typedef struct pir_exact_room {
     pir_rotation_integers *integers;
 } pir_exact_room;
 
+/* A hit of a shape that moves, and how deep the shape begins in what it meets; below 0 where it does not. */
+typedef struct pir_scene_met {
+    pir_impact impact;
+    double depth;
+} pir_scene_met;
+
 /* Answers of a query as they are found; the caller's arrays are filled once it has succeeded. The memory stays. */
 typedef struct pir_scene_answers {
     pir_scene_hit *hit;
     pir_scene_near *near;
     pir_scene_distance *distance;
     pir_impact *impact;
-    uint32_t hit_capacity, near_capacity, distance_capacity, impact_capacity;
+    pir_scene_met *met;
+    uint32_t hit_capacity, near_capacity, distance_capacity, impact_capacity, met_capacity;
 } pir_scene_answers;
 
 /* A body that a restore takes away, or the number that it gives to one that it makes. */
