@@ -138,7 +138,7 @@ oracle_scene *oracle_scene_make(const pir_vec3 *vertex, uint32_t vertices, pir_q
     scene->vertex = calloc(vertices, sizeof *scene->vertex);
     scene->difference = calloc(triangles, sizeof *scene->difference);
     mpz_init(scene->scale);
-    mpz_ui_pow_ui(scene->scale, 2, 300);
+    mpz_ui_pow_ui(scene->scale, 2, 80); // of most translations, and of all by refine
     for (uint32_t i = 0; i < triangles; i++)
         for (int k = 0; k < 3; k++)
             widen_scale(scene->scale, triangle[i].p[k]);
@@ -185,10 +185,39 @@ void oracle_scene_free(oracle_scene *scene) {
     free(scene);
 }
 
+static void shift(oracle_vec v, mp_bitcnt_t bits) {
+    for (int k = 0; k < 3; k++)
+        mpz_mul_2exp(v[k], v[k], bits);
+}
+
+/* Makes the scale 2^bits times as fine. Lengths are of the first degree, normals of the second. */
+static void refine(oracle_scene *scene, mp_bitcnt_t bits) {
+    mpz_mul_2exp(scene->scale, scene->scale, bits);
+    for (uint32_t v = 0; v < scene->vertices; v++)
+        shift(scene->vertex[v], bits);
+    for (uint32_t i = 0; i < scene->triangles; i++) {
+        oracle_difference *d = &scene->difference[i];
+        for (uint32_t k = 0; k < d->count; k++)
+            shift(d->d[k], bits);
+        shift(d->corner, bits);
+        shift(d->front, 2 * bits);
+        for (uint32_t k = 0; k < d->planes; k++) {
+            shift(d->plane[k].n, 2 * bits);
+            mpz_mul_2exp(d->plane[k].most, d->plane[k].most, 3 * bits);
+        }
+    }
+}
+
 void oracle_scene_move(oracle_scene *scene, pir_vec3 t) {
     const double c[3] = {t.x, t.y, t.z};
     mpq_t x;
     mpq_init(x);
+    for (int k = 0; k < 3; k++) {
+        mpq_set_d(x, c[k]);
+        const mp_bitcnt_t has = mpz_scan1(scene->scale, 0), needs = mpz_scan1(mpq_denref(x), 0);
+        if (needs > has) // t of earlier axes is made again
+            refine(scene, needs - has);
+    }
     for (int k = 0; k < 3; k++) {
         mpq_set_d(x, c[k]);
         mpz_mul(scene->t[k], scene->scale, mpq_numref(x));
