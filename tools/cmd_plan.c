@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* pirouette plan: whether a body can be moved from one place to another between obstacles, with the proof. */
+#include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,9 +16,13 @@
 #include "message.h"
 #include "model.h"
 #include "models.h"
+#include "plan_page.h"
 #include "solid.h"
 #include "target.h"
 #include "text.h"
+#include "turn.h"
+
+#define FULL_TURN (2 * 3.14159265358979323846)
 
 struct plan_run {
     const struct args *args;
@@ -29,6 +34,8 @@ struct plan_run {
     uint32_t arcs;                /* at most; 0 for the default */
     pir_rigid_plan_input motions; /* without either: what of the question is its own */
     pir_rigid_plan_options how;
+    struct plan_page page; /* with --page: what it shows, and where it goes */
+    struct output_file page_file;
     pir_report report;
     double seconds;
 };
@@ -134,6 +141,8 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
 
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
+    if (!target_check(args, "--page", ".html") || !targets_differ(args, "-o", "--page"))
+        return false;
     pir_quat end;
     double bounds[6] = {0};
     uint64_t parts = 0;
@@ -222,6 +231,73 @@ static bool load(struct plan_run *run) {
     return true;
 }
 
+/* --- the page --- */
+
+/* Where a proof that there is no path goes: with --page to a file of its own first. */
+static FILE *proof_file(const struct plan_run *run, const struct output_file *file) {
+    return run->page.proof ? run->page.proof : args_has(run->args, "-o") ? file->stream : NULL;
+}
+
+/* With --page, opens that, and a file for the proof. */
+static bool open_page(struct plan_run *run) {
+    const char *path = args_value(run->args, "--page");
+    if (!path)
+        return true;
+    if (!output_open(&run->page_file, path))
+        return false;
+    run->page.proof = tmpfile();
+    if (!run->page.proof)
+        complain("plan: --page: no temporary file can be made for the proof");
+    return run->page.proof;
+}
+
+static void close_page(struct plan_run *run) {
+    output_discard(&run->page_file);
+    plan_page_clear(&run->page);
+    if (run->page.proof)
+        fclose(run->page.proof);
+}
+
+/* Copies the page's proof on to -o. */
+static void pass_on(const struct plan_run *run, struct output_file *file) {
+    char block[65536];
+    size_t size;
+    if (!run->page.proof || !args_has(run->args, "-o"))
+        return;
+    rewind(run->page.proof);
+    while ((size = fread(block, 1, sizeof block, run->page.proof)) > 0)
+        fwrite(block, 1, size, file->stream);
+}
+
+/* Whether a file goes to standard output, where nothing else is printed then. */
+static bool is_on_stdout(const struct plan_run *run) {
+    return target_is_stdout(run->args, "-o") || target_is_stdout(run->args, "--page");
+}
+
+/* Writes the page where one is asked for; `answer` is the answer in words. */
+static bool write_page(struct plan_run *run, const char *answer, bool is_proven) {
+    FILE *const proof = run->page.proof;
+    const struct args *args = run->args;
+    char about[160], title[400];
+    if (!proof)
+        return true;
+    snprintf(about, sizeof about, "%c%s.", toupper((unsigned char)answer[0]), answer + 1);
+    if (args->positional_count == 2)
+        snprintf(title, sizeof title, "%s and %s", model_title(args->positional[0]), model_title(args->positional[1]));
+    else
+        snprintf(title, sizeof title, "%s between %zu models", model_title(args->positional[0]),
+                 (size_t)args->positional_count - 1);
+    run->page.title = title;
+    run->page.about = about;
+    run->page.solid = (const pir_solid *const *)run->solid;
+    run->page.count = run->count;
+    run->page.of_robot = run->of_robot;
+    run->page.proof = is_proven ? proof : NULL;
+    const bool done = plan_page_write(run->page_file.stream, &run->page);
+    run->page.proof = proof;
+    return done && output_commit(&run->page_file);
+}
+
 /* --- what is told --- */
 
 static const char *name_of(pir_path_plan_answer answer) {
@@ -279,12 +355,31 @@ static void print_text(const struct plan_run *run, const pir_path_plan *plan, co
 
 /* Writes the plan with its proof to the file that -o names. */
 static bool write_plan(struct plan_run *run, const pir_path_plan *plan, struct output_file *file) {
-    const pir_status status = pir_path_plan_write(plan, file->stream);
-    if (status == PIR_OK)
-        return output_commit(file);
-    if (!output_failed(file))
-        complain_status(args_value(run->args, "-o"), status, NULL);
+    FILE *const proof = proof_file(run, file);
+    const pir_status status = proof ? pir_path_plan_write(plan, proof) : PIR_OK;
+    if (status == PIR_OK) {
+        pass_on(run, file);
+        return !args_has(run->args, "-o") || output_commit(file);
+    }
+    if (run->page.proof || !output_failed(file))
+        complain_status(run->page.proof ? "plan: --page" : args_value(run->args, "-o"), status, NULL);
     return false;
+}
+
+static bool show_plan(struct plan_run *run, const pir_path_plan *plan) {
+    pir_path_plan_info info;
+    bool done = true;
+    pir_path_plan_describe(plan, &info);
+    for (uint32_t i = 0; i < info.points && done; i++) {
+        pir_pose pose = {.rotation = run->input.rotation};
+        pir_path_plan_waypoint(plan, i, &pose.translation, NULL);
+        done = plan_page_add(&run->page, pose);
+    }
+    run->page.end[0] = (pir_pose){run->input.rotation, run->input.from};
+    run->page.end[1] = (pir_pose){run->input.rotation, run->input.to};
+    const bool is_path = info.answer == PIR_PLAN_PATH;
+    return done &&
+           write_page(run, is_path ? "a path, by translations alone" : "no path by translations alone", !is_path);
 }
 
 static int tell(struct plan_run *run, const pir_path_plan *plan) {
@@ -292,7 +387,7 @@ static int tell(struct plan_run *run, const pir_path_plan *plan) {
     pir_path_plan_describe(plan, &info);
     if (args_has(run->args, "--json"))
         return print_json(run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
-    if (!target_is_stdout(run->args, "-o"))
+    if (!is_on_stdout(run))
         print_text(run, plan, &info);
     return EXIT_DONE;
 }
@@ -333,18 +428,39 @@ static void print_turns_text(const struct plan_run *run, const pir_turn_plan_inf
     say("  %-10s %s\n", "time", time);
 }
 
+/* The page: at each step in the middle of its angles. */
+static bool show_turns(struct plan_run *run, const pir_turn_plan *plan, const pir_turn_plan_info *info) {
+    const pir_turn_plan_input *in = &run->turns;
+    bool done = true;
+    for (uint32_t i = 0; i < info->steps && done; i++) {
+        pir_turn_plan_step step;
+        pir_turn_plan_get_step(plan, i, &step);
+        const pir_quat turned = turn_about(in->axis, (step.low + step.high) / 2, FULL_TURN);
+        if (i > 0) // the turn to here is at the place before
+            done = plan_page_add(&run->page, (pir_pose){turned, run->page.pose[run->page.poses - 1].translation});
+        done = done && plan_page_add(&run->page, (pir_pose){turned, step.at});
+    }
+    run->page.end[0] = (pir_pose){turn_about(in->axis, in->from_turn, 1), in->from};
+    run->page.end[1] = (pir_pose){turn_about(in->axis, in->to_turn, 1), in->to};
+    char answer[80];
+    snprintf(answer, sizeof answer, "%s, by translations and turns about the axis", turn_answer_name(info->answer));
+    return done && write_page(run, answer, info->answer == PIR_TURN_PLAN_NO_PATH);
+}
+
 /* Writes and tells what was decided; the proof, where there is one, stands in the file already. */
 static int tell_turns(struct plan_run *run, const pir_turn_plan *plan, struct output_file *file) {
     pir_turn_plan_info info;
     pir_turn_plan_describe(plan, &info);
-    const bool is_kept = args_has(run->args, "-o");
-    if (is_kept && info.answer != PIR_TURN_PLAN_NO_PATH && !print_turns_json(file->stream, run, plan, &info))
+    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer == PIR_TURN_PLAN_NO_PATH;
+    if (is_kept && !is_proven && !print_turns_json(file->stream, run, plan, &info))
         return EXIT_BAD_INPUT;
-    if (is_kept && !output_commit(file))
+    if (is_proven)
+        pass_on(run, file);
+    if ((is_kept && !output_commit(file)) || !show_turns(run, plan, &info))
         return EXIT_BAD_INPUT;
     if (args_has(run->args, "--json"))
         return print_turns_json(stdout, run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
-    if (!target_is_stdout(run->args, "-o"))
+    if (!is_on_stdout(run))
         print_turns_text(run, &info);
     return EXIT_DONE;
 }
@@ -354,7 +470,7 @@ static int plan_turns(struct plan_run *run, struct output_file *file) {
     pir_turn_plan_options options = pir_turn_plan_options_default();
     pir_turn_plan *plan = NULL;
     options.report = &run->report;
-    options.proof = args_has(run->args, "-o") ? file->stream : NULL;
+    options.proof = proof_file(run, file);
     options.arcs = run->arcs > 0 ? run->arcs : options.arcs;
     options.parts = run->options.parts > 0 ? run->options.parts : options.parts;
     run->turns.robot = run->input.robot;
@@ -409,18 +525,34 @@ static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_
     say("  %-10s %s\n", "time", time);
 }
 
+static bool show_motions(struct plan_run *run, const pir_rigid_plan *plan, const pir_rigid_plan_info *info) {
+    bool done = true;
+    for (uint32_t i = 0; i < info->steps && done; i++) {
+        pir_pose pose;
+        pir_rigid_plan_get_step(plan, i, &pose);
+        done = plan_page_add(&run->page, pose);
+    }
+    run->page.end[0] = run->motions.from;
+    run->page.end[1] = run->motions.to;
+    char answer[80];
+    snprintf(answer, sizeof answer, "%s, by any motion", turn_answer_name(info->answer));
+    return done && write_page(run, answer, info->answer == PIR_TURN_PLAN_NO_PATH);
+}
+
 /* Writes and tells what was decided; the proof, where there is one, stands in the file already. */
 static int tell_motions(struct plan_run *run, const pir_rigid_plan *plan, struct output_file *file) {
     pir_rigid_plan_info info;
     pir_rigid_plan_describe(plan, &info);
-    const bool is_kept = args_has(run->args, "-o");
-    if (is_kept && info.answer != PIR_TURN_PLAN_NO_PATH && !print_motions_json(file->stream, run, plan, &info))
+    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer == PIR_TURN_PLAN_NO_PATH;
+    if (is_kept && !is_proven && !print_motions_json(file->stream, run, plan, &info))
         return EXIT_BAD_INPUT;
-    if (is_kept && !output_commit(file))
+    if (is_proven)
+        pass_on(run, file);
+    if ((is_kept && !output_commit(file)) || !show_motions(run, plan, &info))
         return EXIT_BAD_INPUT;
     if (args_has(run->args, "--json"))
         return print_motions_json(stdout, run, plan, &info) ? EXIT_DONE : EXIT_BAD_INPUT;
-    if (!target_is_stdout(run->args, "-o"))
+    if (!is_on_stdout(run))
         print_motions_text(run, &info);
     return EXIT_DONE;
 }
@@ -429,7 +561,7 @@ static int tell_motions(struct plan_run *run, const pir_rigid_plan *plan, struct
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
     run->how.report = &run->report;
-    run->how.proof = args_has(run->args, "-o") ? file->stream : NULL;
+    run->how.proof = proof_file(run, file);
     run->motions.robot = run->input.robot;
     run->motions.robot_count = run->input.robot_count;
     run->motions.obstacles = run->input.obstacles;
@@ -452,7 +584,7 @@ SUBCOMMAND(plan) {
     const char *path = args_value(args, "-o");
     pir_path_plan *plan = NULL;
     int result = EXIT_BAD_INPUT;
-    bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path));
+    bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path)) && open_page(&run);
     if (good && args_has(args, "--axis")) {
         result = plan_turns(&run, &file);
     } else if (good && !args_has(args, "--translate-only")) {
@@ -461,13 +593,14 @@ SUBCOMMAND(plan) {
         const int64_t start = clock_now();
         const pir_status status = pir_path_plan_translate(&run.input, &run.options, &plan);
         run.seconds = (double)(clock_now() - start) / 1e9;
-        good = status == PIR_OK && (!path || write_plan(&run, plan, &file));
+        good = status == PIR_OK && write_plan(&run, plan, &file) && show_plan(&run, plan);
         if (status != PIR_OK)
             complain_status("plan", status, &run.report);
         if (good)
             result = tell(&run, plan);
     }
     output_discard(&file);
+    close_page(&run);
     pir_path_plan_destroy(plan);
     for (size_t i = 0; i < run.count; i++)
         pir_solid_release(run.solid[i]);

@@ -110,6 +110,7 @@ static const struct option plan_options[] = {
     {"--open", NULL, "with --translate-only: bodies may touch, so passages count that the robot fits exactly"},
     {"--budget", "N", "fail, or with --axis say unknown, where more than N parts of space are needed"},
     {"-o", "FILE", "write the path, or the proof that there is none, to FILE, JSON in rationals"},
+    {"--page", "FILE", "write a page that shows the path, or what is on either side of what blocks it, to FILE, .html"},
     COMMON_OPTIONS,
 };
 

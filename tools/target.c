@@ -8,15 +8,15 @@
 
 #include "message.h"
 
-/* The length of an ending with its dot, and room for it. */
-#define ENDING_LENGTH 4
-#define ENDING_ROOM   (ENDING_LENGTH + 1)
+/* Room for an ending with its dot. */
+#define ENDING_ROOM 8
 
 /* The one of `endings` that `path` ends in, or NULL. */
 static const char *ending_of(const char *path, const char *endings, char ret_ending[ENDING_ROOM]) {
     for (const char *at = strchr(endings, '.'); at; at = strchr(at + 1, '.')) {
-        memcpy(ret_ending, at, ENDING_LENGTH);
-        ret_ending[ENDING_LENGTH] = '\0';
+        const size_t length = strcspn(at, " ,");
+        memcpy(ret_ending, at, length < ENDING_ROOM ? length : ENDING_ROOM - 1);
+        ret_ending[length < ENDING_ROOM ? length : ENDING_ROOM - 1] = '\0';
         if (output_ends_in(path, ret_ending))
             return ret_ending;
     }

@@ -7,6 +7,7 @@ its door. With COMMAND, the program `pirouette`, it has a gallery of scenes that
 Exits with 1, and says why, when a link of a page leads nowhere or Doxygen warns.
 """
 import html
+import importlib.util
 import json
 import os
 import pathlib
@@ -44,7 +45,25 @@ PAGES = {
 SECONDS = {"cards": 4, "game": 3, "gears": 3, "stack": 3, "terrain": 5, "thousands": 0.6}
 # Those that have no name, for they need other files.
 UNNAMED = ["table"]
+# Plans of the gallery, of models that examples/plan/make_models.py writes: name, title, about, and what is asked.
+PLANS = [
+    ("bug", "Out of a trap", "A bug finds its way out by translations alone.",
+     ["bug", "trap", "--translate-only", "--from=1.5,1.5,1.5", "--to=4.5,4.5,13"]),
+    ("bug-large", "No way out of the trap",
+     "A larger bug does not, and the parts of space on either side of the walls prove it.",
+     ["bug-large", "trap", "--translate-only", "--from=1.5,1.5,1.5", "--to=4.5,4.5,13"]),
+    ("peg", "A peg turns to go through", "It lies across a hole, goes through upright, and lies on the other side.",
+     ["peg-loose", "plate", "--axis=0,1,0", "--bounds=0.5,0,-9,5.5,5,9", "--from=1,2.5,4,90", "--to=1,2.5,-2,90"]),
+]
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
+
+
+def load_models():
+    """The models that examples/plan writes, by name."""
+    spec = importlib.util.spec_from_file_location("make_models", ROOT / "examples" / "plan" / "make_models.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.models()
 
 
 def contents(header):
@@ -200,11 +219,32 @@ class Site:
                 continue
             items.append(f'<li><a href="{name}.html">{html.escape(title)}</a><br>{html.escape(about)}</li>')
             self.note(title, f"gallery/{name}.html", "Scene", about)
+        items += self.write_plans()
         body = ("<h1>Scenes that play</h1><p>Each is a page by itself that <code>pirouette simulate</code> wrote: turn "
                 "it by dragging, click a body to see its contacts and their normals. A table below tells what the "
-                "updates of the run did, and how long that took.</p>"
+                "updates of the run did, and how long that took. The last ones are plans, which <code>pirouette plan "
+                "--page</code> wrote.</p>"
                 f"<ul>{''.join(items)}</ul>")
         self.write(here, "Scenes that play", body)
+
+    def write_plans(self):
+        """Pages of plans; the items of the gallery's list."""
+        items, models = [], load_models()
+        for name, title, about, (robot, obstacle, *asked) in PLANS:
+            page, paths = self.out / "gallery" / f"plan-{name}.html", []
+            for model in (robot, obstacle):
+                paths.append(self.out / "gallery" / f"{model}.off")
+                paths[-1].write_text(models[model], encoding="utf-8")
+            done = subprocess.run([self.command, "plan", *paths, *asked, "--page", page], capture_output=True,
+                                  text=True)
+            for path in paths:
+                path.unlink()
+            if done.returncode != 0:
+                self.errors.append(f"gallery: plan-{name}: {done.stderr.strip()}")
+                continue
+            items.append(f'<li><a href="{page.name}">{html.escape(title)}</a><br>{html.escape(about)}</li>')
+            self.note(title, f"gallery/{page.name}", "Plan", about)
+        return items
 
     # ---- the reference
 

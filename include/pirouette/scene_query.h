@@ -90,7 +90,7 @@ typedef struct pir_scene_box {
     const pir_query_filter *filter; /**< or NULL */
 } pir_scene_box;
 
-/** The box between two corners, with all in its mask, no body left out, no filter. O(1). */
+/** The box between the corners `low` and `high`, with all in its mask, no body left out, no filter. O(1). */
 static inline pir_scene_box pir_scene_box_default(pir_vec3 low, pir_vec3 high) {
     const pir_scene_box box = {low, high, UINT32_MAX, PIR_SCENE_NONE, NULL};
     return box;

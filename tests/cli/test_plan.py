@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: MIT
 """pirouette plan: verdicts on models whose answers are known, their proofs, which check/plan.py takes, and proofs that
 were tampered with, which it refuses."""
+import base64
 import importlib.util
 import json
 import random
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -93,6 +95,41 @@ class Plan(PlanTest):
         self.bad("plan", bug, trap, "--from=1.5,1.5,1.5", "--to=2,2,1.5", says=("--translate-only",))
         self.bad("plan", bug, self.path / "none.off", *good[3:], "--to=20,20,20", says=("none.off",))
         self.bad(*good, "--to=20,20,20", "-o", self.path / "no" / "plan.json", says=("plan.json",))
+
+    def page(self, *args):
+        """What the page of a plan holds: its data, and the proof or None."""
+        page = self.path / "plan.html"
+        self.good("plan", *args, "--page", page)
+        text = page.read_text()
+        return [json.loads(re.search(f'<script id="{name}" type="application/json">(.*?)</script>', text, re.S)[1])
+                for name in ("data", "proof")]
+
+    def test_pages(self):
+        """The path, or the proof, is that of -o, with the bodies as they were read."""
+        proof, out = self.path / "plan.json", [self.model("bug"), self.model("trap"), "--translate-only"]
+        data, none = self.page(*out, "--from=1.5,1.5,1.5", "--to=4.5,4.5,13", "-o", proof)
+        self.assertIsNone(none)
+        self.assertEqual([pose[:3] for pose in data["poses"]], json.loads(proof.read_text())["path"])
+        self.assertEqual((len(data["robot"]), len(data["obstacles"]), data["about"]),
+                         (1, 1, "A path, by translations alone."))
+        self.assertEqual(len(base64.b64decode(data["robot"][0]["points"])), 8 * 12)
+        data, tree = self.page(self.model("bug-large"), *out[1:], "--from=1.5,1.5,1.5", "--to=4.5,4.5,13", "-o", proof)
+        self.assertEqual((tree, data["poses"]), (json.loads(proof.read_text()), []))
+        self.assertTrue(self.check(proof, self.model("bug-large"), self.model("trap")))
+        peg = [self.model("peg-loose"), self.model("plate"), "--axis=0,1,0", "--bounds=0.5,0,-9,5.5,5,9"]
+        data, none = self.page(*peg, "--from=1,2.5,4,90", "--to=1,2.5,-2,90")
+        self.assertIsNone(none)
+        self.assertTrue(len(data["poses"]) > 4 and data["ends"][0][:3] == [1, 2.5, 4])
+        for a, b in zip(data["poses"], data["poses"][1:]):  # each goes or turns, not both
+            self.assertTrue(a[:3] == b[:3] or a[3:] == b[3:], (a, b))
+        large = [self.model("peg-large"), *peg[1:], "--from=1,2,5,0", "--to=1,2,-6,0"]
+        data, tree = self.page(*large)
+        self.good("plan", *large, "-o", proof)
+        self.assertEqual((tree, data["poses"]), (json.loads(proof.read_text()), []))
+        self.bad("plan", *large, "--page", self.path / "plan.pdf", says=("--page", ".html"))
+        self.bad("plan", *large, "--page", proof, "-o", proof, says=(".html",))
+        self.bad("plan", *large, "--page", "-", "--json", says=("--page - and --json",))
+        self.assertTrue(self.good("plan", *large, "--page", "-").startswith("<!DOCTYPE html>"))
 
     def test_turns(self):
         """A bar and a plate with a slot: through, not, and files that say so."""

@@ -22,7 +22,7 @@ MORE = {"title": "More", "seconds": 2, "rollbacks": [{"at": 1, "to": 0.5}], "sha
                    {"shape": "box", "kind": "static", "sensor": True, "position": [0, 0, 1]}]}
 # The colours of the canvas at points of the world.
 LOOK = """(points => {
-    const view = viewOf(), seen = new Uint8Array(4);
+    const view = viewOf(canvas, looking, scene), seen = new Uint8Array(4);
     return points.map(p => {
         const at = [0, 1, 2, 3].map(r => view[r] * p[0] + view[4 + r] * p[1] + view[8 + r] * p[2] + view[12 + r]);
         const x = (at[0] / at[3] + 1) / 2 * canvas.width, y = (at[1] / at[3] + 1) / 2 * canvas.height;
@@ -89,7 +89,7 @@ def check_controls(browser):
     nobody = browser.evaluate(text)
     for body in (1, 2):
         x, y = browser.evaluate(f"""(() => {{
-            const view = viewOf(), p = [...frames[60].pose.slice({7 * body}, {7 * body + 3}), 1];
+            const view = viewOf(canvas, looking, scene), p = [...frames[60].pose.slice({7 * body}, {7 * body + 3}), 1];
             const at = [0, 1, 2, 3].map(r => p.reduce((sum, c, k) => sum + view[4 * k + r] * c, 0));
             const box = canvas.getBoundingClientRect();
             return [box.left + (at[0] / at[3] + 1) / 2 * box.width, box.top + (1 - at[1] / at[3]) / 2 * box.height];

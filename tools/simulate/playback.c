@@ -25,6 +25,7 @@
 #include <string.h>
 
 #include "../message.h"
+#include "../views/forms.h"
 #include "playback_template.h"
 
 #define DATA_MARK "@DATA@"
@@ -178,26 +179,6 @@ bool playback_add(struct playback *playback, const struct world *world) {
 
 /* --- the page --- */
 
-/* Adds the points of a piece and its facets, whose corners count from `first` on. */
-static pir_status add_piece(struct bytes *points, struct bytes *facets, const pir_polytope *piece, uint32_t *first) {
-    pir_mesh *mesh = NULL;
-    pir_status status = pir_mesh_from_polytope(piece, &mesh);
-    if (status != PIR_OK)
-        return status;
-    for (uint32_t v = 0; v < pir_mesh_vertex_count(mesh); v++)
-        bytes_add_vec(points, pir_mesh_vertices(mesh)[v]);
-    for (uint32_t f = 0; f < pir_mesh_facet_count(mesh); f++) {
-        uint32_t count;
-        const uint32_t *corner = pir_mesh_facet(mesh, f, &count);
-        bytes_add_number(facets, count);
-        for (uint32_t i = 0; i < count; i++)
-            bytes_add_number(facets, *first + corner[i]);
-    }
-    *first += pir_mesh_vertex_count(mesh);
-    pir_mesh_destroy(mesh);
-    return PIR_OK;
-}
-
 /* Adds a triangle, and counts it. */
 static void add_triangle(struct bytes *points, struct bytes *facets, const pir_triangle_corners *corners,
                          uint32_t *count) {
@@ -243,7 +224,7 @@ static bool print_shape(FILE *file, const struct world_shape *shape) {
     bytes_add(&facets, triangles.at, triangles.size);
     facets.failed |= triangles.failed;
     for (uint32_t i = 0; status == PIR_OK && i < shape->count; i++)
-        status = add_piece(&points, &facets, shape->piece[i], &first);
+        status = forms_add(&points, &facets, shape->piece[i], &first);
     if (status == PIR_OK && (points.failed || facets.failed))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
