@@ -140,7 +140,8 @@ typedef struct pir_surface_contact_result {
     bool is_out; /**< whether P meets no triangle there, without a radius exactly; false where none was found nearby */
     bool is_shortest; /**< whether no way is shorter that leaves through one facet of one D that P's place is in, and
                             meets nothing a step farther on: 2^-12 of P's size, or 2^-28 where another triangle is
-                            that near. way_out has that step, distance has not */
+                            that near. way_out has that step, distance has not, and is
+                            that way's but for roundings */
     size_t contacts;  /**< how many were written */
     pir_surface_contact_counts counts;
 } pir_surface_contact_result;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The pages of `pirouette plan` in Chromium: the robot is where the path has it, and the parts of a proof are those that
-its planes leave, by volumes that are computed otherwise.
+"""The pages of `pirouette plan` in Chromium: the robot is where the path has it, and the parts of a proof are those
+that its planes leave, by volumes that are computed otherwise.
 
 Usage: test_plan_page.py COMMAND. Ends with 77, skipped, where Chromium is missing or has no WebGL.
 """

@@ -454,6 +454,10 @@ static void what_is_told_as_the_shortest_way_is_no_longer(void **state) {
         const pir_surface_contact_result r = ask_soup(corner, 8, triangle, 6, at);
         expect(r.state != PIR_INSIDE || !r.is_shortest || r.distance > -1e-9, "%d: depth %.17g", i, -r.distance);
     }
+    // the floor that it is beside is higher than that under it by less than a step
+    const pir_vec3 floors[2][3] = {{{0, -9, 0}, {0, 9, 0}, {-18, 0, 0}}, {{0, 9, 2e-9}, {0, -9, 2e-9}, {18, 0, 2e-9}}};
+    const pir_surface_contact_result r = ask_soup(corner, 8, floors, 2, (pir_vec3){-0.5, 0, 0.25 - 0x1p-10});
+    expect(!r.is_shortest || fabs(r.distance + 0x1p-10) < 1e-10, "depth %.17g", -r.distance);
 }
 
 static void triangles_all_through_one_point_end_in_bounded_time(void **state) {

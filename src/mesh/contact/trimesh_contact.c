@@ -13,6 +13,8 @@
 #define MOST_POINTS 4
 /* Heights and depths this near to one another, by the size of what is near P, are one: this chooses points only. */
 #define LEVEL 0x1p-30
+/* Ways whose lengths differ by no more, by their size, are as long: what roundings leave open, many times. */
+#define SAME_WAY 0x1p-38
 /* How much deeper than all points of a normal its nearest contact has to be to be one more, by that size. */
 #define DEEPER 0x1p-40
 
@@ -369,7 +371,8 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
         contact.normal = pir_vec_scale(move, 1 / length);
     }
     set_nearest(s, &contact, result);
-    result->is_shortest &= length <= room->out.depth + level;
+    // another triangle within the step may stand higher than the one that P leaves
+    result->is_shortest &= length <= room->out.depth + SAME_WAY * job->size;
 }
 
 /* The contacts of P, which was looked at where the input has it. */
