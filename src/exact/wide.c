@@ -1,119 +1,128 @@
 /* SPDX-License-Identifier: MIT */
-/* Integers of fixed length: see wide.h. Signs are masks, and loops have fixed counts, so nothing branches. */
+/*
+ * Integers of fixed length: see wide.h. Loops have fixed counts, so nothing branches.
+ *
+ * A product of limbs i and k goes in halves into columns i + k and i + k + 1, of 128 bits each, and once all are there
+ * what is above 64 bits in a column is carried to the next. The top limb of a factor has its sign, the others have
+ * none. So a product of top limbs has a sign, in columns in two's complement. A column gets at most 64 halves.
+ */
 #include "exact/wide.h"
 
 #if PIR_HAVE_WIDE
 
-/* to = a, or −a where `mask` is all ones. */
-static inline void negate_if(mp_limb_t *to, const mp_limb_t *a, int count, mp_limb_t mask) {
-    mp_limb_t carry = mask & 1;
+/* column += a·b for factors of `na` and `nb` limbs; columns from `count` on are left out. */
+static inline void add_columns(pir_two_limbs_unsigned *column, int count, const mp_limb_t *a, int na,
+                               const mp_limb_t *b, int nb) {
+    for (int k = 0; k < nb; k++)
+        for (int i = 0; i < na && i + k < count; i++) {
+            const bool of_a = i == na - 1, of_b = k == nb - 1;
+            const pir_two_limbs_unsigned product =
+                of_a && of_b ? (pir_two_limbs_unsigned)((pir_two_limbs)(int64_t)a[i] * (int64_t)b[k])
+                : of_a       ? (pir_two_limbs_unsigned)((pir_two_limbs)(int64_t)a[i] * (pir_two_limbs)b[k])
+                : of_b       ? (pir_two_limbs_unsigned)((pir_two_limbs)a[i] * (int64_t)b[k])
+                             : (pir_two_limbs_unsigned)a[i] * b[k];
+            column[i + k] += (mp_limb_t)product;
+            if (i + k + 1 < count)
+                column[i + k + 1] +=
+                    of_a || of_b ? (pir_two_limbs_unsigned)((pir_two_limbs)product >> 64) : product >> 64;
+        }
+}
+
+/* Carries from column to column. */
+static inline void set_of_columns(mp_limb_t *to, pir_two_limbs_unsigned *column, int count) {
+    pir_two_limbs carry = 0;
     for (int k = 0; k < count; k++) {
-        pir_two_limbs_unsigned t = (pir_two_limbs_unsigned)(a[k] ^ mask) + carry;
-        to[k] = (mp_limb_t)t;
-        carry = (mp_limb_t)(t >> 64);
+        const pir_two_limbs_unsigned sum = column[k] + (pir_two_limbs_unsigned)carry;
+        to[k] = (mp_limb_t)sum;
+        carry = (pir_two_limbs)sum >> 64;
     }
 }
 
-/* sum += a, or sum −= a where `mask` is all ones. */
-static inline void add_if(mp_limb_t *sum, const mp_limb_t *a, int count, mp_limb_t mask) {
-    mp_limb_t carry = mask & 1;
-    for (int k = 0; k < count; k++) {
-        pir_two_limbs_unsigned t = (pir_two_limbs_unsigned)sum[k] + (a[k] ^ mask) + carry;
-        sum[k] = (mp_limb_t)t;
-        carry = (mp_limb_t)(t >> 64);
-    }
+/* sum += a·b, of `count` limbs. */
+static inline void add_product(mp_limb_t *sum, int count, const mp_limb_t *a, int na, const mp_limb_t *b, int nb) {
+    pir_two_limbs_unsigned column[8];
+    for (int k = 0; k < count; k++)
+        column[k] = sum[k];
+    add_columns(column, count, a, na, b, nb);
+    set_of_columns(sum, column, count);
 }
 
-/* to[0 … count] = a·b for a magnitude of `count` limbs; `add`: on top of what is in the first `count`. */
-static inline void multiply_row(mp_limb_t *to, const mp_limb_t *a, int count, mp_limb_t b, bool add) {
-    mp_limb_t carry = 0;
-    for (int i = 0; i < count; i++) {
-        pir_two_limbs_unsigned t = (pir_two_limbs_unsigned)a[i] * b + carry;
-        t += add ? to[i] : 0;
-        to[i] = (mp_limb_t)t;
-        carry = (mp_limb_t)(t >> 64);
-    }
-    to[count] = carry;
-}
+/* The limbs of an integer. */
+typedef struct two {
+    mp_limb_t limb[2];
+} two;
 
-/* All ones for a negative number. */
-static inline mp_limb_t mask_of(const pir_int256 *a) {
-    return 0 - (a->limb[3] >> 63);
-}
-
-static inline pir_two_limbs_unsigned size_of(pir_two_limbs a) {
-    return a < 0 ? 0 - (pir_two_limbs_unsigned)a : (pir_two_limbs_unsigned)a;
+static inline two two_of(pir_two_limbs a) {
+    return (two){{(mp_limb_t)a, (mp_limb_t)(a >> 64)}};
 }
 
 void pir_int256_add_product(pir_int256 *sum, pir_two_limbs a, pir_two_limbs b) {
-    mp_limb_t of_a = a < 0 ? ~(mp_limb_t)0 : 0, of_b = b < 0 ? ~(mp_limb_t)0 : 0, product[4];
-    pir_two_limbs_unsigned x = size_of(a), y = size_of(b);
-    const mp_limb_t size[2] = {(mp_limb_t)x, (mp_limb_t)(x >> 64)};
-    multiply_row(product, size, 2, (mp_limb_t)y, false);
-    multiply_row(product + 1, size, 2, (mp_limb_t)(y >> 64), true);
-    add_if(sum->limb, product, 4, of_a ^ of_b);
+    const two x = two_of(a), y = two_of(b);
+    add_product(sum->limb, 4, x.limb, 2, y.limb, 2);
 }
 
 void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, pir_two_limbs b) {
-    mp_limb_t of_a = mask_of(a), of_b = b < 0 ? ~(mp_limb_t)0 : 0, size[4], product[6];
-    pir_two_limbs_unsigned y = size_of(b);
-    negate_if(size, a->limb, 4, of_a);
-    multiply_row(product, size, 4, (mp_limb_t)y, false);
-    multiply_row(product + 1, size, 4, (mp_limb_t)(y >> 64), true);
-    add_if(sum->limb, product, 4, of_a ^ of_b);
+    const two y = two_of(b);
+    add_product(sum->limb, 4, a->limb, 4, y.limb, 2);
 }
 
 void pir_int512_add_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b) {
-    mp_limb_t of_a = mask_of(a), of_b = mask_of(b), x[4], y[4], product[8];
-    negate_if(x, a->limb, 4, of_a);
-    negate_if(y, b->limb, 4, of_b);
-    multiply_row(product, x, 4, y[0], false);
-    multiply_row(product + 1, x, 4, y[1], true);
-    multiply_row(product + 2, x, 4, y[2], true);
-    multiply_row(product + 3, x, 4, y[3], true);
-    add_if(sum->limb, product, 8, of_a ^ of_b);
+    add_product(sum->limb, 8, a->limb, 4, b->limb, 4);
+}
+
+void pir_int512_add_scaled(pir_int512 *sum, const pir_int512 *a, int64_t b) {
+    const mp_limb_t y = (mp_limb_t)b;
+    add_product(sum->limb, 8, a->limb, 8, &y, 1);
+}
+
+void pir_int512_set(pir_int512 *to, const pir_int256 *a) {
+    const mp_limb_t above = 0 - (a->limb[3] >> 63);
+    for (int k = 0; k < 8; k++)
+        to->limb[k] = k < 4 ? a->limb[k] : above;
+}
+
+pir_int256 pir_two_dot(const pir_two_limbs a[3], const pir_two_limbs b[3]) {
+    pir_two_limbs_unsigned column[4] = {0};
+    pir_int256 sum;
+    for (int k = 0; k < 3; k++) {
+        const two x = two_of(a[k]), y = two_of(b[k]);
+        add_columns(column, 4, x.limb, 2, y.limb, 2);
+    }
+    set_of_columns(sum.limb, column, 4);
+    return sum;
 }
 
 pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]) {
-    pir_int512 sum = {{0}};
+    pir_two_limbs_unsigned column[8] = {0};
+    pir_int512 sum;
     for (int k = 0; k < 3; k++)
-        pir_int512_add_product(&sum, &a[k], &b[k]);
+        add_columns(column, 8, a[k].limb, 4, b[k].limb, 4);
+    set_of_columns(sum.limb, column, 8);
     return sum;
 }
 
 pir_int512 pir_int256_dot_two(const pir_int256 a[3], const pir_two_limbs b[3]) {
-    pir_int512 sum = {{0}};
+    pir_two_limbs_unsigned column[8] = {0};
+    pir_int512 sum;
     for (int k = 0; k < 3; k++) {
-        mp_limb_t of_a = mask_of(&a[k]), of_b = b[k] < 0 ? ~(mp_limb_t)0 : 0, x[4], product[8] = {0};
-        pir_two_limbs_unsigned y = size_of(b[k]);
-        negate_if(x, a[k].limb, 4, of_a);
-        multiply_row(product, x, 4, (mp_limb_t)y, false);
-        multiply_row(product + 1, x, 4, (mp_limb_t)(y >> 64), true);
-        add_if(sum.limb, product, 8, of_a ^ of_b);
+        const two y = two_of(b[k]);
+        add_columns(column, 8, a[k].limb, 4, y.limb, 2);
     }
+    set_of_columns(sum.limb, column, 8);
     return sum;
 }
 
 pir_int512 pir_two_square(const pir_two_limbs a[3]) {
-    pir_int512 sum = {{0}};
-    for (int k = 0; k < 3; k++) {
-        pir_two_limbs_unsigned x = size_of(a[k]);
-        const mp_limb_t size[2] = {(mp_limb_t)x, (mp_limb_t)(x >> 64)};
-        mp_limb_t product[4];
-        multiply_row(product, size, 2, size[0], false);
-        multiply_row(product + 1, size, 2, size[1], true);
-        add_if(sum.limb, product, 4, 0);
-    }
+    const pir_int256 square = pir_two_dot(a, a);
+    pir_int512 sum;
+    pir_int512_set(&sum, &square);
     return sum;
 }
 
 double pir_int512_to_double(const pir_int512 *a, int *ret_exponent) {
-    mp_limb_t limb[8], mask = 0 - (a->limb[7] >> 63);
-    negate_if(limb, a->limb, 8, mask);
-    int32_t size = 8;
-    while (size > 0 && limb[size - 1] == 0)
-        size--;
-    pir_int whole = {limb, mask ? -size : size, 0};
+    mp_limb_t limb[8];
+    pir_int whole = {limb, 0, 8};
+    pir_int_set_limbs(&whole, a->limb, 8);
     return pir_int_to_double(&whole, ret_exponent);
 }
 

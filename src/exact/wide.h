@@ -42,6 +42,15 @@ void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, pir_two_limbs b
 /* sum += a·b. */
 void pir_int512_add_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b);
 
+/* sum += a·b, where the product is within 511 bits. */
+void pir_int512_add_scaled(pir_int512 *sum, const pir_int512 *a, int64_t b);
+
+/* to = a. */
+void pir_int512_set(pir_int512 *to, const pir_int256 *a);
+
+/* a·b for vectors of two limbs. */
+pir_int256 pir_two_dot(const pir_two_limbs a[3], const pir_two_limbs b[3]);
+
 /* a·b for vectors. */
 pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]);
 

@@ -95,6 +95,41 @@ static void sums_of_products_are_exact(void **state) {
     mpz_clears(a, b, NULL);
 }
 
+/* A longer number in 512 bits, and sums of dot products that are multiplied by one limb. */
+static void products_with_one_limb_are_exact(void **state) {
+    (void)state;
+    test_random random = test_random_case("wide integers", 2);
+    mpz_t z[3], a, b, c;
+    mpz_inits(a, b, c, NULL);
+    for (int k = 0; k < 3; k++)
+        mpz_init(z[k]);
+    for (int i = 0; i < CASES; i++) {
+        pir_int256 v[3];
+        pir_two_limbs two[3];
+        pir_int512 sum;
+        check_case(&random, v, z, a, b);
+        mpz_set_ui(b, 0);
+        for (int k = 0; k < 3; k++) {
+            two[k] = random_two(&random, 126);
+            set_two(a, two[k]);
+            mpz_addmul(b, z[k], a);
+        }
+        const int64_t by = (int64_t)random_two(&random, 63);
+        const pir_int512 dot = pir_int256_dot_two(v, two);
+        pir_int512_set(&sum, &v[0]);
+        set_wide(a, sum.limb, 8);
+        assert_int_equal(mpz_cmp(a, z[0]), 0);
+        pir_int512_add_scaled(&sum, &dot, by);
+        set_two(a, by);
+        mpz_addmul(z[0], b, a);
+        set_wide(c, sum.limb, 8);
+        assert_int_equal(mpz_cmp(c, z[0]), 0);
+    }
+    for (int k = 0; k < 3; k++)
+        mpz_clear(z[k]);
+    mpz_clears(a, b, c, NULL);
+}
+
 /* Zeros, ones and powers of two next to what fills a limb, of either sign, each with each. */
 static void products_of_special_numbers_are_exact(void **state) {
     (void)state;
@@ -159,9 +194,9 @@ static void products_with_two_limbs_are_exact(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_exact),
-                                       cmocka_unit_test(products_of_special_numbers_are_exact),
-                                       cmocka_unit_test(products_with_two_limbs_are_exact)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sums_of_products_are_exact), cmocka_unit_test(products_of_special_numbers_are_exact),
+        cmocka_unit_test(products_with_two_limbs_are_exact), cmocka_unit_test(products_with_one_limb_are_exact)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
 #else

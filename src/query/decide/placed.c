@@ -2,6 +2,8 @@
 /* The integers of a placement: see placed.h. */
 #include "query/decide/placed.h"
 
+#include "query/decide/short_numbers.h"
+
 /* --- reals --- */
 
 static pir_real normal_real(double m, int e) {
@@ -292,6 +294,8 @@ pir_int3 pir_exact_normal(pir_exact *exact, pir_piece piece) {
 /* --- the side of a piece's plane --- */
 
 bool pir_side_normal(pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal) {
+    if (pir_short_normal(exact, piece, ret_normal))
+        return pir_vec_dot(*ret_normal, *ret_normal) > 0;
     pir_rotation_make_exact(exact->rotation);
     uint32_t mark = exact->scratch.used;
     pir_int3 n = pir_exact_normal(exact, piece);

@@ -2,6 +2,8 @@
 /* Where faces of P and Q meet: see touch.h. */
 #include "query/decide/touch.h"
 
+#include "query/decide/short_numbers.h"
+
 struct touch {
     pir_exact *exact;
     const pir_placement *placement;
@@ -201,11 +203,22 @@ static int turn_of(const struct touch *touch, uint32_t half_p, uint32_t half_q, 
     return sign;
 }
 
+/* Whether y is the foot of x on the plane of two edges. */
+static bool is_foot_between(const struct touch *touch, uint32_t edge_p, uint32_t edge_q) {
+    const pir_normal *normal = touch->normal;
+    return !touch->way && !normal->exact && normal->piece.kind == PIR_FACET_EE && normal->piece.first == edge_p &&
+           touch->exact->frame->q.polytope->edge[normal->piece.second] == edge_q;
+}
+
 /* The fraction of the edge of Q at which y lies, from integers, correct to a few ulps. */
 static double exact_part(const struct touch *touch, uint32_t half_p, uint32_t half_q) {
     pir_exact *exact = touch->exact;
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
+    double brief;
+    if (is_foot_between(touch, p->edge[half_p], q->edge[half_q]) &&
+        pir_short_part(exact, touch->placement->translation, half_p, half_q, &brief))
+        return brief;
     pir_exact_begin(exact, touch->placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 n = pir_normal_integers(exact, touch->normal), e = pir_exact_half_p(exact, half_p),

@@ -17,6 +17,8 @@
  */
 #include "query/nearest/nearest.h"
 
+#include "query/decide/short_numbers.h"
+
 /*
  * A bound on steps, which no input is known to come near. Every step is strictly nearer, so there is an end, and the
  * start is where doubles ended.
@@ -234,16 +236,9 @@ bool pir_nearest_at_slack(pir_exact *exact, const pir_placement *placement, cons
     return true;
 }
 
-/* A corner or an edge of D: its corner, and the halfedge along it. */
-struct line {
-    uint32_t a, b;
-    bool of_p, of_q; /* an edge of P, an edge of Q; neither for a corner */
-    uint32_t half;
-};
-
-static struct line line_of(const pir_frame *frame, pir_witness faces) {
+static pir_edge_of_d line_of(const pir_frame *frame, pir_witness faces) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    struct line line = {.a = pir_face_lowest(p, faces.p), .b = pir_face_lowest(q, faces.q)};
+    pir_edge_of_d line = {.a = pir_face_lowest(p, faces.p), .b = pir_face_lowest(q, faces.q)};
     line.of_p = faces.p.kind == PIR_FEATURE_EDGE;
     line.of_q = !line.of_p && faces.q.kind == PIR_FEATURE_EDGE;
     if (line.of_p)
@@ -253,7 +248,7 @@ static struct line line_of(const pir_frame *frame, pir_witness faces) {
     return line;
 }
 
-static pir_vec3 direction_of(const pir_frame *frame, const struct line *line) {
+static pir_vec3 direction_of(const pir_frame *frame, const pir_edge_of_d *line) {
     return line->of_p ? pir_mat_apply(&frame->r, frame->p.polytope->direction[line->half])
                       : frame->q.polytope->direction[line->half];
 }
@@ -261,7 +256,7 @@ static pir_vec3 direction_of(const pir_frame *frame, const struct line *line) {
 /*
  * The vector from the corner or the edge to x, in doubles. *ret_along is the distance from the corner along the edge.
  */
-static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement, const struct line *line,
+static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement, const pir_edge_of_d *line,
                           double *ret_along) {
     pir_vec3 w = pir_vec_sub(placement->x, pir_frame_vertex(frame, line->a, line->b));
     *ret_along = 0;
@@ -273,8 +268,11 @@ static pir_vec3 away_from(const pir_frame *frame, const pir_placement *placement
 }
 
 /* Distance and unit normal from integers. */
-static double exactly_away(pir_exact *exact, const pir_placement *placement, const struct line *line,
+static double exactly_away(pir_exact *exact, const pir_placement *placement, const pir_edge_of_d *line,
                            pir_vec3 *ret_normal) {
+    double distance;
+    if (pir_short_distance(exact, placement->translation, line, &distance, ret_normal))
+        return distance;
     pir_exact_begin(exact, placement->translation);
     uint32_t mark = exact->scratch.used;
     pir_int3 w = pir_exact_corner(exact, line->a, line->b), n = w;
@@ -297,7 +295,7 @@ static double exactly_away(pir_exact *exact, const pir_placement *placement, con
 /* The distance of x from the corner or the edge of D, and the direction from there. */
 static double measure_line(pir_exact *exact, const pir_placement *placement, pir_witness faces,
                            pir_normal *ret_normal) {
-    struct line line = line_of(exact->frame, faces);
+    pir_edge_of_d line = line_of(exact->frame, faces);
     double along;
     pir_vec3 w = away_from(exact->frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w)), error = 4 * placement->error;
@@ -333,7 +331,7 @@ static bool leads_down(const pir_polytope *p, pir_vec3 n, double off, uint32_t v
 /* Whether the corner or edge of D that is the sum of the faces certainly holds the nearest point. */
 static bool line_is_nearest(const pir_frame *frame, const pir_placement *placement, pir_witness faces) {
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    struct line line = line_of(frame, faces);
+    pir_edge_of_d line = line_of(frame, faces);
     double along, error = 4 * placement->error;
     pir_vec3 w = away_from(frame, placement, &line, &along);
     double distance = sqrt(pir_vec_dot(w, w));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Slacks in integers of fixed length: see short_slack.h.
+ * Numbers in integers of fixed length: see short_numbers.h.
  *
  * With q an integer quaternion of N = |q|² < 2^126, the entries of M are at most N, and |M v| = N |v|. Vertices p of
  * P, and the difference d of one of Q and the translation, are integers below 2^122 on one power of two. Then,
@@ -26,8 +26,28 @@
  *
  * and n·n = (N_P N_Q)² m·m, m·m, and |M_Q d × M_P e|². With m, p, q and T below 2^122 a vector in s is below
  * 2^250, s below 2^503. Of edges e × p, q × d and M_P e × T are refused where they may be longer than that.
+ *
+ * Of edges e and d below 2^62 that are nearly parallel, and of D's edges and corners, let
+ *
+ *     X = N_P N_Q e·p + M_P e · (M_Q q + N_Q T)            the first s, of e in place of m, below 2^443,
+ *     Y = N_P N_Q d·q + M_Q d · (M_P p + N_P T)            the second, likewise,
+ *     A = M_P e · M_Q d, E = N_P N_Q e·e, U = M_Qᵀ (M_P p + N_P T) + N_P N_Q q        below 2^378.
+ *
+ * With M = M_Qᵀ M_P, M_Q M = N_Q² M_P and M e · M e = N_P² N_Q² e·e, the integers of placed.h are
+ *
+ *     d × M e                  as it stands; M e = M_Qᵀ (M_P e) is below 2^315, the product below 2^379,
+ *     ((d × M e) × M e)·W      N_P N_Q² (A X − E Y),
+ *     W                        N_Q U,
+ *     (W·e) e − (e·e) W        N_P N_Q² (X M e − E U)    along an edge of P, M e in place of e,
+ *                              N_Q (Y d − (d·d) U)       along one of Q,
+ *
+ * where M e · M e = N_P N_Q E. A crossing's fraction is the second over what it is less at the other end of Q's
+ * edge: from q to q + l d, X grows by l A and Y by l N_P N_Q d·d, so the second falls by
+ * l N_P N_Q² (E N_P N_Q d·d − A²). All are below 2^1216.
+ *
+ * Where Q is not turned M_Q and N_Q are 1.
  */
-#include "query/decide/short_slack.h"
+#include "query/decide/short_numbers.h"
 
 #include "exact/wide.h"
 
@@ -131,10 +151,10 @@ static inline void shift_vector(two3 *v, int shift) {
         v->c[k] *= (pir_two_limbs)1 << shift;
 }
 
+/* to = M v. */
 static inline void turn(const turning *by, const two3 *v, pir_int256 to[3]) {
     for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            pir_int256_add_product(&to[i], by->m[i][j], v->c[j]);
+        to[i] = pir_two_dot(by->m[i], v->c);
 }
 
 /* M v, where that is brief when multiplied by so many bits more. */
@@ -146,12 +166,14 @@ static inline bool turn_briefly(const turning *by, const two3 *v, uint32_t more,
     return true;
 }
 
-/* to += M v · 2^shift. */
+/* to = M v · 2^shift. */
 static inline void turn_shifted(const turning *by, two3 *v, int shift, pir_int256 to[3]) {
     two3 turned;
     if (turn_briefly(by, v, 0, &turned)) {
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
+            to[k] = (pir_int256){{0}};
             pir_int256_add_product(&to[k], turned.c[k], (pir_two_limbs)1 << shift);
+        }
     } else {
         shift_vector(v, shift);
         turn(by, v, to);
@@ -194,7 +216,7 @@ static bool get_crossing(const pir_frame *frame, const turning *by, pir_piece pi
     two3 e, d;
     if (!get_vector(&of_p, EDGE_BITS, &e) || !get_vector(&of_q, EDGE_BITS, &d))
         return false;
-    pir_int256 turned[3] = {{{0}}, {{0}}, {{0}}};
+    pir_int256 turned[3];
     turn(by, &e, turned);
     for (int k = 0; k < 3; k++) {
         int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -260,9 +282,14 @@ static bool get_products(const pir_frame *frame, const turning *by, pir_piece pi
     return true;
 }
 
+/* One unit of W, of what that is over, in lengths of the frame. */
+static pir_real unit_of(const pir_frame *frame, pir_real over, int exponent) {
+    return pir_real_over((pir_real){0.5, 1 + exponent - frame->exponent}, over);
+}
+
 /* The steps of facet.c from n·W, n·n and what one unit of W is over, to the slack in lengths of the frame. */
 static double number_of(const pir_frame *frame, pir_real dot, pir_real square, pir_real over, int exponent) {
-    pir_real unit = pir_real_over((pir_real){0.5, 1 + exponent - frame->exponent}, over);
+    const pir_real unit = unit_of(frame, over, exponent);
     return pir_real_double(pir_real_times(pir_real_over(dot, pir_real_root(square)), unit));
 }
 
@@ -306,24 +333,39 @@ static bool slack_at_rest(const pir_exact *exact, const pir_vec3 at[2], const pi
 
 /* The integers that s is made of. */
 typedef struct turned_both {
+    bool is_turned; /* Q is */
     turning by_p, by_q;
     two3 p, q, t; /* in units of 2^exponent */
     int exponent;
     pir_int256 norm; /* N_P N_Q */
 } turned_both;
 
-static bool get_both(const pir_exact *exact, const pir_facet *facet, turned_both *to) {
+/* The turnings of both. */
+static bool get_turnings(const pir_rotation *rotation, turned_both *to) {
+    to->is_turned = rotation->relative;
+    to->norm = (pir_int256){{0}};
+    if (!get_turning(to->is_turned ? rotation->factor[1] : rotation->given, &to->by_p))
+        return false;
+    if (!to->is_turned)
+        to->by_q = (turning){{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 1};
+    else if (!get_turning(rotation->factor[0], &to->by_q))
+        return false;
+    pir_int256_add_product(&to->norm, to->by_p.norm, to->by_q.norm);
+    return true;
+}
+
+/* All of them for corner (a, b); `at`: the translations of both. */
+static bool get_both(const pir_exact *exact, const pir_vec3 at[2], uint32_t a, uint32_t b, turned_both *to) {
     const pir_frame *frame = exact->frame;
-    const pir_vec3 at_p = exact->world->translation_p, at_q = exact->world->translation_q;
-    const double from[3] = {at_p.x, at_p.y, at_p.z}, t[3] = {at_q.x, at_q.y, at_q.z};
+    const double from[3] = {at[0].x, at[0].y, at[0].z}, t[3] = {at[1].x, at[1].y, at[1].z};
     int of_p, of_q, low = low_bit(from, 3), other = low_bit(t, 3);
-    if (!get_turning(exact->rotation->factor[1], &to->by_p) || !get_turning(exact->rotation->factor[0], &to->by_q) ||
-        !get_exponent(&frame->p.polytope->scale, &of_p) || !get_exponent(&frame->q.polytope->scale, &of_q))
+    if (!get_turnings(exact->rotation, to) || !get_exponent(&frame->p.polytope->scale, &of_p) ||
+        !get_exponent(&frame->q.polytope->scale, &of_q))
         return false;
     low = other < low ? other : low;
     low = of_p < low ? of_p : low;
     low = of_q < low ? of_q : low;
-    pir_int3 va = pir_vertex_exact(frame->p.polytope, facet->a), vb = pir_vertex_exact(frame->q.polytope, facet->b);
+    pir_int3 va = pir_vertex_exact(frame->p.polytope, a), vb = pir_vertex_exact(frame->q.polytope, b);
     if (!get_unshifted(&va, of_p - low, VECTOR_BITS, &to->p) || !get_unshifted(&vb, of_q - low, VECTOR_BITS, &to->q))
         return false;
     shift_vector(&to->p, of_p - low);
@@ -335,24 +377,32 @@ static bool get_both(const pir_exact *exact, const pir_facet *facet, turned_both
         to->t.c[k] -= less;
     }
     to->exponent = low;
-    to->norm = (pir_int256){{0}};
-    pir_int256_add_product(&to->norm, to->by_p.norm, to->by_q.norm);
     return true;
 }
 
-/* sum += N_P N_Q m·v + M m · (M' v' + N' T), M and N being of m's body, M' and N' of the other. */
-static void add_facet(const turned_both *both, const two3 *m, bool of_p, pir_int512 *sum) {
-    const turning *own = of_p ? &both->by_p : &both->by_q, *other = of_p ? &both->by_q : &both->by_p;
-    const two3 *v = of_p ? &both->p : &both->q, *across = of_p ? &both->q : &both->p;
-    pir_int256 height = {{0}}, normal[3] = {{{0}}, {{0}}, {{0}}}, way[3] = {{{0}}, {{0}}, {{0}}};
-    turn(own, m, normal);
-    turn(other, across, way);
-    for (int k = 0; k < 3; k++) {
-        pir_int256_add_product(&height, m->c[k], v->c[k]);
-        pir_int256_add_product(&way[k], other->norm, both->t.c[k]);
-        pir_int512_add_product(sum, &normal[k], &way[k]);
-    }
-    pir_int512_add_product(sum, &height, &both->norm);
+/* M v + N T of a body. */
+static void get_way(const turned_both *both, bool of_p, pir_int256 way[3]) {
+    const turning *by = of_p ? &both->by_p : &both->by_q;
+    turn(by, of_p ? &both->p : &both->q, way);
+    for (int k = 0; k < 3; k++)
+        pir_int256_add_product(&way[k], by->norm, both->t.c[k]);
+}
+
+/* N_P N_Q m·v + M m · way, M m and v being of m's body, the way of the other. */
+static pir_int512 height_of(const turned_both *both, const two3 *m, const pir_int256 turned[3], const two3 *v,
+                            const pir_int256 way[3]) {
+    const pir_int256 height = pir_two_dot(m->c, v->c);
+    pir_int512 sum = pir_int256_dot(turned, way);
+    pir_int512_add_product(&sum, &height, &both->norm);
+    return sum;
+}
+
+/* s of a facet. */
+static pir_int512 facet_height(const turned_both *both, const two3 *m, bool of_p) {
+    pir_int256 normal[3], way[3];
+    turn(of_p ? &both->by_p : &both->by_q, m, normal);
+    get_way(both, !of_p, way);
+    return height_of(both, m, normal, of_p ? &both->p : &both->q, way);
 }
 
 /* a × b, where it is short for certain. */
@@ -369,8 +419,7 @@ static bool cross_short(const two3 *a, const two3 *b, two3 *to) {
 /* sum += s of two edges; sets |M_Q d × M_P e|², of 17 limbs. False where the integers would be too long. */
 static bool add_edges(const turned_both *both, const two3 *e, const two3 *d, pir_int512 *sum, pir_int *square) {
     two3 of_p, of_q;
-    pir_int256 edge_p[3] = {{{0}}, {{0}}, {{0}}}, edge_q[3] = {{{0}}, {{0}}, {{0}}};
-    pir_int256 way_p[3] = {{{0}}, {{0}}, {{0}}}, way_q[3] = {{{0}}, {{0}}, {{0}}}, back[3] = {{{0}}, {{0}}, {{0}}};
+    pir_int256 edge_p[3], edge_q[3], way_p[3], way_q[3], back[3];
     if (!cross_short(e, &both->p, &of_p) || !cross_short(&both->q, d, &of_q) ||
         both->by_p.bits + bits_of(e->c) + bits_of(both->t.c) + 3 > 250)
         return false;
@@ -408,7 +457,8 @@ static pir_real real_of_product(const pir_int *a, const pir_int *others, int cou
     return pir_real_of(last);
 }
 
-static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *ret_sign, double *ret_slack) {
+static bool slack_in_world(const pir_exact *exact, const pir_vec3 at[2], const pir_facet *facet, int *ret_sign,
+                           double *ret_slack) {
     const pir_polytope *p = exact->frame->p.polytope, *q = exact->frame->q.polytope;
     const pir_piece piece = facet->piece;
     turned_both both;
@@ -417,7 +467,7 @@ static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *
     mp_limb_t limbs[8], squares[18], norms[4], of_norms[2][2];
     pir_int s = {limbs, 0, 8}, square = {squares, 0, 18}, norm = {norms, 0, 4};
     pir_int norm_p = {of_norms[0], 0, 2}, norm_q = {of_norms[1], 0, 2};
-    if (!get_both(exact, facet, &both))
+    if (!get_both(exact, at, facet->a, facet->b, &both))
         return false;
     if (piece.kind == PIR_FACET_EE) {
         pir_int3 of_p = pir_half_exact(p, p->edge_half[piece.first]), of_q = pir_half_exact(q, piece.second);
@@ -429,7 +479,7 @@ static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *
         pir_int3 own = by_p ? pir_normal_exact(p, piece.first) : pir_normal_exact(q, piece.second);
         if (!get_vector(&own, VECTOR_BITS, &m))
             return false;
-        add_facet(&both, &m, by_p, &sum);
+        sum = facet_height(&both, &m, by_p);
         const pir_int512 of_m = pir_two_square(m.c);
         pir_int_set_limbs(&square, of_m.limb, 8);
     }
@@ -446,15 +496,314 @@ static bool slack_in_world(const pir_exact *exact, const pir_facet *facet, int *
     return true;
 }
 
+/*
+ * The translations of both as the integers of placed.h have them. False where Q is turned by a quaternion that turns
+ * nothing, but has another N than a power of two.
+ */
+static bool get_places(const pir_exact *exact, pir_vec3 translation, pir_vec3 at[2]) {
+    const pir_world *world = exact->world;
+    at[0] = world ? world->translation_p : translation;
+    at[1] = world ? world->translation_q : (pir_vec3){0, 0, 0};
+    return exact->rotation->relative ? world != NULL : !world || is_unturned(world->rotation_q->given);
+}
+
 bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
                      double *ret_slack) {
-    const pir_world *world = exact->world;
-    if (exact->rotation->relative)
-        return world && slack_in_world(exact, facet, ret_sign, ret_slack);
-    if (world && !is_unturned(world->rotation_q->given))
+    pir_vec3 at[2];
+    return get_places(exact, translation, at) &&
+           (exact->rotation->relative ? slack_in_world(exact, at, facet, ret_sign, ret_slack)
+                                      : slack_at_rest(exact, at, facet, ret_sign, ret_slack));
+}
+
+/* --- edges --- */
+
+/* A halfedge of a body. */
+static bool get_edge(const pir_polytope *p, uint32_t half, two3 *e) {
+    const pir_int3 given = pir_half_exact(p, half);
+    return get_vector(&given, EDGE_BITS, e);
+}
+
+/* M_Qᵀ v. */
+static void turn_back(const turned_both *both, const pir_int256 v[3], pir_int512 to[3]) {
+    for (int k = 0; k < 3; k++) {
+        const pir_two_limbs column[3] = {both->by_q.m[0][k], both->by_q.m[1][k], both->by_q.m[2][k]};
+        if (both->is_turned)
+            to[k] = pir_int256_dot_two(v, column);
+        else
+            pir_int512_set(&to[k], &v[k]);
+    }
+}
+
+bool pir_short_normal(const pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal) {
+    turned_both both;
+    two3 e, d;
+    const pir_polytope *p = exact->frame->p.polytope;
+    if (!get_edge(p, p->edge_half[piece.first], &e) || !get_edge(exact->frame->q.polytope, piece.second, &d) ||
+        !get_turnings(exact->rotation, &both))
         return false;
-    const pir_vec3 at[2] = {translation, world ? world->translation_q : (pir_vec3){0, 0, 0}};
-    return slack_at_rest(exact, at, facet, ret_sign, ret_slack);
+    pir_int256 turned[3];
+    pir_int512 back[3], n[3] = {{{0}}, {{0}}, {{0}}};
+    mp_limb_t limbs[3][8];
+    pir_int3 normal;
+    turn(&both.by_p, &e, turned);
+    turn_back(&both, turned, back);
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        pir_int512_add_scaled(&n[k], &back[j], (int64_t)d.c[i]);
+        pir_int512_add_scaled(&n[k], &back[i], -(int64_t)d.c[j]);
+        normal.c[k] = (pir_int){limbs[k], 0, 8};
+        pir_int_set_limbs(&normal.c[k], n[k].limb, 8);
+    }
+    *ret_normal = pir_int3_is_zero(&normal) ? (pir_vec3){0, 0, 0} : pir_int3_unit(&normal);
+    return true;
+}
+
+/* --- numbers of more limbs --- */
+
+/* The longest number, and a product of two: see above. */
+#define LONG_LIMBS   22
+#define SQUARE_LIMBS (2 * LONG_LIMBS + 1)
+
+/* A number of up to so many limbs. */
+typedef struct longer {
+    mp_limb_t limb[LONG_LIMBS];
+    int32_t size; /* as in pir_int */
+} longer;
+
+static inline pir_int view_of(const longer *a) {
+    return (pir_int){(mp_limb_t *)a->limb, a->size, 0};
+}
+
+static void set_longer(longer *to, const mp_limb_t *a, int32_t count) {
+    pir_int whole = {to->limb, 0, LONG_LIMBS};
+    pir_int_set_limbs(&whole, a, count);
+    to->size = whole.size;
+}
+
+/* a *= b. */
+static void multiply(longer *a, const longer *b) {
+    mp_limb_t limbs[LONG_LIMBS];
+    const pir_int of_a = view_of(a), of_b = view_of(b);
+    pir_int product = {limbs, 0, LONG_LIMBS}, whole = {a->limb, 0, LONG_LIMBS};
+    pir_int_mul(&product, &of_a, &of_b);
+    pir_int_copy(&whole, &product);
+    a->size = whole.size;
+}
+
+/* a·b − c·d, times f. */
+static void set_difference(longer *to, const longer *a, const longer *b, const longer *c, const longer *d,
+                           const longer *f) {
+    mp_limb_t limbs[2][LONG_LIMBS];
+    pir_int first = {limbs[0], 0, LONG_LIMBS}, second = {limbs[1], 0, LONG_LIMBS}, whole = {to->limb, 0, LONG_LIMBS};
+    const pir_int of_a = view_of(a), of_b = view_of(b), of_c = view_of(c), of_d = view_of(d), of_f = view_of(f);
+    pir_int_mul(&first, &of_a, &of_b);
+    pir_int_mul(&second, &of_c, &of_d);
+    pir_int_sub(&first, &first, &second);
+    pir_int_mul(&whole, &first, &of_f);
+    to->size = whole.size;
+}
+
+static pir_real real_of_longer(const longer *a) {
+    const pir_int whole = view_of(a);
+    return pir_real_of(&whole);
+}
+
+/* Turned edges, and the factors of numbers. */
+struct turned_edges {
+    two3 e, d;
+    pir_int256 along_p[3], along_q[3]; /* M_P e, M_Q d */
+    longer norm_p, norm_q, norm;       /* N_P, N_Q, their product */
+    longer square;                     /* E */
+};
+
+static void set_norms(const turned_both *both, struct turned_edges *edges) {
+    pir_int256 norm[2] = {{{0}}, {{0}}};
+    pir_int256_add_product(&norm[0], both->by_p.norm, 1);
+    pir_int256_add_product(&norm[1], both->by_q.norm, 1);
+    set_longer(&edges->norm_p, norm[0].limb, 4);
+    set_longer(&edges->norm_q, norm[1].limb, 4);
+    set_longer(&edges->norm, both->norm.limb, 4);
+}
+
+static void set_edge_p(const turned_both *both, struct turned_edges *edges) {
+    const pir_int256 square = pir_two_dot(edges->e.c, edges->e.c);
+    turn(&both->by_p, &edges->e, edges->along_p);
+    set_longer(&edges->square, square.limb, 4);
+    multiply(&edges->square, &edges->norm);
+}
+
+static void set_edge_q(const turned_both *both, struct turned_edges *edges) {
+    turn(&both->by_q, &edges->d, edges->along_q);
+}
+
+/* X and Y, for the vertices and T at hand. */
+static void set_x(const turned_both *both, const struct turned_edges *edges, longer *x) {
+    pir_int256 way[3];
+    get_way(both, false, way);
+    const pir_int512 sum = height_of(both, &edges->e, edges->along_p, &both->p, way);
+    set_longer(x, sum.limb, 8);
+}
+
+static void set_y(const turned_both *both, const struct turned_edges *edges, const pir_int256 way[3], longer *y) {
+    const pir_int512 sum = height_of(both, &edges->d, edges->along_q, &both->q, way);
+    set_longer(y, sum.limb, 8);
+}
+
+/* --- crossings --- */
+
+/* How often d goes into the way between the ends of an edge of Q, which starts at the corner's vertex: it does. */
+static bool get_times(const pir_polytope *q, uint32_t half, const two3 *d, const turned_both *both, longer *ret_times) {
+    const pir_int3 to = pir_vertex_exact(q, q->target[half]);
+    const int k = d->c[0] != 0 ? 0 : d->c[1] != 0 ? 1 : 2;
+    pir_int256 times = {{0}};
+    two3 end;
+    int of_q;
+    if (!get_exponent(&q->scale, &of_q) || !get_unshifted(&to, of_q - both->exponent, VECTOR_BITS, &end))
+        return false;
+    shift_vector(&end, of_q - both->exponent);
+    pir_int256_add_product(&times, (end.c[k] - both->q.c[k]) / d->c[k], 1);
+    set_longer(ret_times, times.limb, 4);
+    return true;
+}
+
+bool pir_short_part(const pir_exact *exact, pir_vec3 translation, uint32_t half_p, uint32_t half_q, double *ret_part) {
+    const pir_polytope *p = exact->frame->p.polytope, *q = exact->frame->q.polytope;
+    turned_both both;
+    struct turned_edges edges;
+    pir_vec3 at[2];
+    pir_int256 way[3];
+    longer x, y, along, times, square, part, whole;
+    if (!get_edge(p, half_p, &edges.e) || !get_edge(q, half_q, &edges.d) || !get_places(exact, translation, at) ||
+        !get_both(exact, at, p->origin[half_p], q->origin[half_q], &both) ||
+        !get_times(q, half_q, &edges.d, &both, &times))
+        return false;
+    set_norms(&both, &edges);
+    set_edge_p(&both, &edges);
+    set_edge_q(&both, &edges);
+    get_way(&both, true, way);
+    set_x(&both, &edges, &x);
+    set_y(&both, &edges, way, &y);
+    const pir_int512 both_along = pir_int256_dot(edges.along_p, edges.along_q);
+    const pir_int256 of_d = pir_two_dot(edges.d.c, edges.d.c);
+    longer factor = edges.norm;
+    set_longer(&along, both_along.limb, 8);
+    set_longer(&square, of_d.limb, 4);
+    multiply(&factor, &edges.norm_q);
+    multiply(&square, &edges.norm);
+    set_difference(&part, &along, &x, &edges.square, &y, &factor);
+    set_difference(&whole, &edges.square, &square, &along, &along, &factor);
+    multiply(&whole, &times);
+    *ret_part = pir_real_double(pir_real_over(real_of_longer(&part), real_of_longer(&whole)));
+    return true;
+}
+
+/* --- distances --- */
+
+/* The vector from x to a corner, or across an edge, and what it is times for an edge. */
+struct away {
+    longer n[3], times;
+};
+
+/* U. */
+static void set_corner(const turned_both *both, const pir_int256 way[3], longer corner[3]) {
+    pir_int512 u[3];
+    turn_back(both, way, u);
+    for (int k = 0; k < 3; k++) {
+        pir_int256 own = {{0}};
+        pir_int256_add_product(&own, both->q.c[k], 1);
+        pir_int512_add_product(&u[k], &own, &both->norm);
+        set_longer(&corner[k], u[k].limb, 8);
+    }
+}
+
+static void set_across_p(const turned_both *both, const struct turned_edges *edges, const longer corner[3],
+                         struct away *away) {
+    pir_int512 back[3];
+    longer x, factor = edges->norm;
+    multiply(&factor, &edges->norm_q);
+    turn_back(both, edges->along_p, back);
+    set_x(both, edges, &x);
+    for (int k = 0; k < 3; k++) {
+        longer along;
+        set_longer(&along, back[k].limb, 8);
+        set_difference(&away->n[k], &x, &along, &edges->square, &corner[k], &factor);
+    }
+    away->times = edges->square;
+    multiply(&away->times, &edges->norm);
+}
+
+static void set_across_q(const turned_both *both, const struct turned_edges *edges, const pir_int256 way[3],
+                         const longer corner[3], struct away *away) {
+    const pir_int256 square = pir_two_dot(edges->d.c, edges->d.c);
+    longer y;
+    set_y(both, edges, way, &y);
+    set_longer(&away->times, square.limb, 4);
+    for (int k = 0; k < 3; k++) {
+        pir_int256 own = {{0}};
+        longer along;
+        pir_int256_add_product(&own, edges->d.c[k], 1);
+        set_longer(&along, own.limb, 4);
+        set_difference(&away->n[k], &y, &along, &away->times, &corner[k], &edges->norm_q);
+    }
+}
+
+/* Sets the vector in `away`. False where an edge is too long. */
+static bool set_away(const pir_exact *exact, const turned_both *both, const pir_edge_of_d *edge,
+                     struct turned_edges *edges, struct away *away) {
+    longer corner[3];
+    pir_int256 way[3];
+    if ((edge->of_p && !get_edge(exact->frame->p.polytope, edge->half, &edges->e)) ||
+        (edge->of_q && !get_edge(exact->frame->q.polytope, edge->half, &edges->d)))
+        return false;
+    set_norms(both, edges);
+    get_way(both, true, way);
+    set_corner(both, way, corner);
+    if (edge->of_p) {
+        set_edge_p(both, edges);
+        set_across_p(both, edges, corner, away);
+        return true;
+    }
+    if (edge->of_q) {
+        set_edge_q(both, edges);
+        set_across_q(both, edges, way, corner, away);
+        return true;
+    }
+    for (int k = 0; k < 3; k++) {
+        away->n[k] = corner[k];
+        multiply(&away->n[k], &edges->norm_q);
+        away->n[k].size = -away->n[k].size;
+    }
+    return true;
+}
+
+/* |n|². */
+static pir_real square_of(const pir_int3 *n) {
+    mp_limb_t limbs[2][SQUARE_LIMBS];
+    pir_int sum = {limbs[0], 0, SQUARE_LIMBS}, product = {limbs[1], 0, SQUARE_LIMBS};
+    for (int k = 0; k < 3; k++) {
+        pir_int_mul(&product, &n->c[k], &n->c[k]);
+        pir_int_add(&sum, &sum, &product);
+    }
+    return pir_real_of(&sum);
+}
+
+bool pir_short_distance(const pir_exact *exact, pir_vec3 translation, const pir_edge_of_d *edge, double *ret_distance,
+                        pir_vec3 *ret_normal) {
+    turned_both both;
+    struct turned_edges edges;
+    struct away away;
+    pir_vec3 at[2];
+    if (!get_places(exact, translation, at) || !get_both(exact, at, edge->a, edge->b, &both) ||
+        !set_away(exact, &both, edge, &edges, &away))
+        return false;
+    const pir_int3 n = {{view_of(&away.n[0]), view_of(&away.n[1]), view_of(&away.n[2])}};
+    pir_real length = pir_real_root(square_of(&n));
+    if (edge->of_p || edge->of_q)
+        length = pir_real_over(length, real_of_longer(&away.times));
+    const pir_real over = pir_real_times(real_of_longer(&edges.norm), real_of_longer(&edges.norm_q));
+    *ret_normal = pir_int3_is_zero(&n) ? (pir_vec3){1, 0, 0} : pir_int3_unit(&n);
+    *ret_distance = pir_real_double(pir_real_times(length, unit_of(exact->frame, over, both.exponent)));
+    return true;
 }
 
 #else
@@ -462,6 +811,22 @@ bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_fac
 bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_facet *facet, int *ret_sign,
                      double *ret_slack) {
     (void)exact, (void)translation, (void)facet, (void)ret_sign, (void)ret_slack;
+    return false;
+}
+
+bool pir_short_normal(const pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal) {
+    (void)exact, (void)piece, (void)ret_normal;
+    return false;
+}
+
+bool pir_short_part(const pir_exact *exact, pir_vec3 translation, uint32_t half_p, uint32_t half_q, double *ret_part) {
+    (void)exact, (void)translation, (void)half_p, (void)half_q, (void)ret_part;
+    return false;
+}
+
+bool pir_short_distance(const pir_exact *exact, pir_vec3 translation, const pir_edge_of_d *edge, double *ret_distance,
+                        pir_vec3 *ret_normal) {
+    (void)exact, (void)translation, (void)edge, (void)ret_distance, (void)ret_normal;
     return false;
 }
 #endif
