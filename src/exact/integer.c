@@ -38,6 +38,8 @@ void pir_int_mul(pir_int *dst, const pir_int *a, const pir_int *b) {
         dst->limb[na] = mpn_mul_1(dst->limb, a->limb, na, b->limb[0]);
     else if (na == 1)
         dst->limb[nb] = mpn_mul_1(dst->limb, b->limb, nb, a->limb[0]);
+    else if (na == nb && a->limb == b->limb)
+        mpn_sqr(dst->limb, a->limb, na);
     else if (na >= nb)
         mpn_mul(dst->limb, a->limb, na, b->limb, nb);
     else
