@@ -3,7 +3,7 @@
 #include "query/decide/facet.h"
 
 #include "query/decide/placed.h"
-#include "query/decide/short_slack.h"
+#include "query/decide/short_numbers.h"
 
 /* --- slopes and exposed faces --- */
 
@@ -177,7 +177,9 @@ static bool orient_edges(pir_exact *exact, const pir_normal *normal, uint32_t e,
     return along != 0;
 }
 
-bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
+/* As pir_facet_of_faces; `known` is a plane that is refined. */
+static bool facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, const pir_plane *known,
+                           pir_facet *ret_facet) {
     const pir_frame *frame = exact->frame;
     pir_feature p = faces.p, q = faces.q;
     uint32_t half = 0, a = pir_face_lowest(frame->p.polytope, p), b = pir_face_lowest(frame->q.polytope, q);
@@ -191,7 +193,11 @@ bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness 
     else
         return false;
     pir_plane plane;
-    const bool has_plane = pir_plane_of(exact, ret_facet->piece, &plane) && pir_plane_refine(exact, &plane);
+    const bool is_known = known && pir_piece_same(known->piece, ret_facet->piece);
+    const bool has_plane =
+        is_known || (pir_plane_of(exact, ret_facet->piece, &plane) && pir_plane_refine(exact, &plane));
+    if (is_known)
+        plane = *known;
     PIR_ASSERT(has_plane);
     ret_facet->faces = faces;
     ret_facet->a = a;
@@ -202,8 +208,13 @@ bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness 
     return has_plane;
 }
 
-/* The beginning of both ways to a piece's true facet: its normal, and the vertices that the search starts from. */
+bool pir_facet_of_faces(pir_exact *exact, const pir_normal *normal, pir_witness faces, pir_facet *ret_facet) {
+    return facet_of_faces(exact, normal, faces, NULL, ret_facet);
+}
+
+/* The beginning of both ways to a piece's true facet: its plane, and the vertices that the search starts from. */
 struct search_start {
+    pir_plane plane;
     pir_normal normal;
     struct from a, b;
     pir_view of_p, of_q;
@@ -213,10 +224,10 @@ struct search_start {
 static inline bool start_search(pir_exact *exact, pir_piece piece, struct search_start *ret_start) {
     const pir_frame *frame = exact->frame;
     const pir_polytope *p = frame->p.polytope, *q = frame->q.polytope;
-    pir_plane plane;
-    if (!pir_plane_of(exact, piece, &plane) || !pir_plane_refine(exact, &plane))
+    pir_plane *plane = &ret_start->plane;
+    if (!pir_plane_of(exact, piece, plane) || !pir_plane_refine(exact, plane))
         return false;
-    ret_start->normal = (pir_normal){.unit = plane.n, .err = plane.err, .piece = piece};
+    ret_start->normal = (pir_normal){.unit = plane->n, .err = plane->err, .piece = piece};
     ret_start->a.across = piece.kind == PIR_FACET_EE ? p->edge_half[piece.first] : NO_HALF;
     ret_start->b.across = piece.kind == PIR_FACET_EE ? piece.second : NO_HALF;
     pir_piece_corner(frame, piece, &ret_start->a.vertex, &ret_start->b.vertex);
@@ -234,7 +245,7 @@ bool pir_facet_of(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
     pir_witness faces;
     faces.p = s.by_p ? (pir_feature){PIR_FEATURE_FACET, piece.first} : exposed(exact, &s.normal, &s.of_p, s.a);
     faces.q = s.by_q ? (pir_feature){PIR_FEATURE_FACET, piece.second} : exposed(exact, &s.normal, &s.of_q, s.b);
-    return pir_facet_of_faces(exact, &s.normal, faces, ret_facet);
+    return facet_of_faces(exact, &s.normal, faces, &s.plane, ret_facet);
 }
 
 bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
@@ -244,7 +255,7 @@ bool pir_facet_prove(pir_exact *exact, pir_piece piece, pir_facet *ret_facet) {
     pir_witness faces = {{PIR_FEATURE_FACET, piece.first}, {PIR_FEATURE_FACET, piece.second}};
     return (s.by_p || prove_exposed(exact, &s.normal, &s.of_p, s.a, &faces.p)) &&
            (s.by_q || prove_exposed(exact, &s.normal, &s.of_q, s.b, &faces.q)) &&
-           pir_facet_of_faces(exact, &s.normal, faces, ret_facet);
+           facet_of_faces(exact, &s.normal, faces, &s.plane, ret_facet);
 }
 
 /* --- order --- */

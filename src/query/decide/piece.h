@@ -20,6 +20,10 @@ typedef struct pir_piece {
     uint32_t kind, first, second;
 } pir_piece;
 
+static inline bool pir_piece_same(pir_piece a, pir_piece b) {
+    return a.kind == b.kind && a.first == b.first && a.second == b.second;
+}
+
 /* In place of a kind: there is no piece. */
 #define PIR_NO_PIECE UINT32_MAX
 
