@@ -28,8 +28,28 @@ static inline void add_columns(pir_two_limbs_unsigned *column, int count, const 
         }
 }
 
+/*
+ * Products of the lengths that are used. Most calls are rare, and their code comes from memory. So each has one copy,
+ * and sums of three products go round a loop.
+ */
+__attribute__((noinline)) static void add_two_by_two(pir_two_limbs_unsigned *column, pir_two_limbs a, pir_two_limbs b) {
+    const mp_limb_t x[2] = {(mp_limb_t)a, (mp_limb_t)(a >> 64)}, y[2] = {(mp_limb_t)b, (mp_limb_t)(b >> 64)};
+    add_columns(column, 4, x, 2, y, 2);
+}
+
+__attribute__((noinline)) static void add_four_by_two(pir_two_limbs_unsigned *column, const mp_limb_t *a,
+                                                      pir_two_limbs b) {
+    const mp_limb_t y[2] = {(mp_limb_t)b, (mp_limb_t)(b >> 64)};
+    add_columns(column, 6, a, 4, y, 2);
+}
+
+__attribute__((noinline)) static void add_four_by_four(pir_two_limbs_unsigned *column, const mp_limb_t *a,
+                                                       const mp_limb_t *b) {
+    add_columns(column, 8, a, 4, b, 4);
+}
+
 /* Carries from column to column. */
-static inline void set_of_columns(mp_limb_t *to, pir_two_limbs_unsigned *column, int count) {
+__attribute__((noinline)) static void set_of_columns(mp_limb_t *to, const pir_two_limbs_unsigned *column, int count) {
     pir_two_limbs carry = 0;
     for (int k = 0; k < count; k++) {
         const pir_two_limbs_unsigned sum = column[k] + (pir_two_limbs_unsigned)carry;
@@ -38,41 +58,40 @@ static inline void set_of_columns(mp_limb_t *to, pir_two_limbs_unsigned *column,
     }
 }
 
-/* sum += a·b, of `count` limbs. */
-static inline void add_product(mp_limb_t *sum, int count, const mp_limb_t *a, int na, const mp_limb_t *b, int nb) {
-    pir_two_limbs_unsigned column[8];
+/* The limbs of a sum as columns. */
+static inline void get_columns(const mp_limb_t *sum, pir_two_limbs_unsigned *column, int count) {
     for (int k = 0; k < count; k++)
         column[k] = sum[k];
-    add_columns(column, count, a, na, b, nb);
-    set_of_columns(sum, column, count);
-}
-
-/* The limbs of an integer. */
-typedef struct two {
-    mp_limb_t limb[2];
-} two;
-
-static inline two two_of(pir_two_limbs a) {
-    return (two){{(mp_limb_t)a, (mp_limb_t)(a >> 64)}};
 }
 
 void pir_int256_add_product(pir_int256 *sum, pir_two_limbs a, pir_two_limbs b) {
-    const two x = two_of(a), y = two_of(b);
-    add_product(sum->limb, 4, x.limb, 2, y.limb, 2);
+    pir_two_limbs_unsigned column[4];
+    get_columns(sum->limb, column, 4);
+    add_two_by_two(column, a, b);
+    set_of_columns(sum->limb, column, 4);
 }
 
 void pir_int256_add_scaled(pir_int256 *sum, const pir_int256 *a, pir_two_limbs b) {
-    const two y = two_of(b);
-    add_product(sum->limb, 4, a->limb, 4, y.limb, 2);
+    // two columns more than count
+    pir_two_limbs_unsigned column[6] = {0};
+    get_columns(sum->limb, column, 4);
+    add_four_by_two(column, a->limb, b);
+    set_of_columns(sum->limb, column, 4);
 }
 
 void pir_int512_add_product(pir_int512 *sum, const pir_int256 *a, const pir_int256 *b) {
-    add_product(sum->limb, 8, a->limb, 4, b->limb, 4);
+    pir_two_limbs_unsigned column[8];
+    get_columns(sum->limb, column, 8);
+    add_four_by_four(column, a->limb, b->limb);
+    set_of_columns(sum->limb, column, 8);
 }
 
 void pir_int512_add_scaled(pir_int512 *sum, const pir_int512 *a, int64_t b) {
     const mp_limb_t y = (mp_limb_t)b;
-    add_product(sum->limb, 8, a->limb, 8, &y, 1);
+    pir_two_limbs_unsigned column[8];
+    get_columns(sum->limb, column, 8);
+    add_columns(column, 8, a->limb, 8, &y, 1);
+    set_of_columns(sum->limb, column, 8);
 }
 
 void pir_int512_set(pir_int512 *to, const pir_int256 *a) {
@@ -84,10 +103,8 @@ void pir_int512_set(pir_int512 *to, const pir_int256 *a) {
 pir_int256 pir_two_dot(const pir_two_limbs a[3], const pir_two_limbs b[3]) {
     pir_two_limbs_unsigned column[4] = {0};
     pir_int256 sum;
-    for (int k = 0; k < 3; k++) {
-        const two x = two_of(a[k]), y = two_of(b[k]);
-        add_columns(column, 4, x.limb, 2, y.limb, 2);
-    }
+    for (int k = 0; k < 3; k++)
+        add_two_by_two(column, a[k], b[k]);
     set_of_columns(sum.limb, column, 4);
     return sum;
 }
@@ -96,7 +113,7 @@ pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]) {
     pir_two_limbs_unsigned column[8] = {0};
     pir_int512 sum;
     for (int k = 0; k < 3; k++)
-        add_columns(column, 8, a[k].limb, 4, b[k].limb, 4);
+        add_four_by_four(column, a[k].limb, b[k].limb);
     set_of_columns(sum.limb, column, 8);
     return sum;
 }
@@ -104,10 +121,9 @@ pir_int512 pir_int256_dot(const pir_int256 a[3], const pir_int256 b[3]) {
 pir_int512 pir_int256_dot_two(const pir_int256 a[3], const pir_two_limbs b[3]) {
     pir_two_limbs_unsigned column[8] = {0};
     pir_int512 sum;
-    for (int k = 0; k < 3; k++) {
-        const two y = two_of(b[k]);
-        add_columns(column, 8, a[k].limb, 4, y.limb, 2);
-    }
+    for (int k = 0; k < 3; k++)
+        add_four_by_two(column, a[k].limb, b[k]);
+    // what is carried into the last two has the sign
     set_of_columns(sum.limb, column, 8);
     return sum;
 }

@@ -5,6 +5,8 @@
  *
  * The integers are those of placed.h but for powers of two, and numbers come from them by the same steps, so they have
  * the same bits. Every call returns false where the integers would be too long; then nothing is said.
+ *
+ * Code that few frames reach comes from memory, and that takes longer than its instructions: `cold` has it short.
  */
 #ifndef PIR_QUERY_DECIDE_SHORT_NUMBERS_H
 #define PIR_QUERY_DECIDE_SHORT_NUMBERS_H
@@ -23,14 +25,14 @@ bool pir_short_slack(const pir_exact *exact, pir_vec3 translation, const pir_fac
                      double *ret_slack);
 
 /* The unit normal of two edges; 0 where they are parallel. */
-bool pir_short_normal(const pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal);
+__attribute__((cold)) bool pir_short_normal(const pir_exact *exact, pir_piece piece, pir_vec3 *ret_normal);
 
 /* The fraction of an edge of Q at which an edge of P crosses it, as both are seen along their common normal. */
-bool pir_short_part(const pir_exact *exact, pir_vec3 translation, uint32_t half_p, uint32_t half_q, double *ret_part);
+__attribute__((cold)) bool pir_short_part(const pir_exact *exact, pir_vec3 translation, uint32_t half_p,
+                                          uint32_t half_q, double *ret_part);
 
-/* The distance of x from a corner or the line along an edge, and the direction from there, (1, 0, 0) where x is
-   on it. */
-bool pir_short_distance(const pir_exact *exact, pir_vec3 translation, const pir_edge_of_d *edge, double *ret_distance,
-                        pir_vec3 *ret_normal);
+/* The distance of x from a corner or the line of an edge, and the direction from there; (1, 0, 0) where x is on it. */
+__attribute__((cold)) bool pir_short_distance(const pir_exact *exact, pir_vec3 translation, const pir_edge_of_d *edge,
+                                              double *ret_distance, pir_vec3 *ret_normal);
 
 #endif
