@@ -58,6 +58,9 @@
 #define EDGE_BITS   62
 #define BRIEF_BITS  124
 
+/* Few frames come here, so code comes from memory, and that takes longer than its instructions: there is one copy. */
+#define RARE __attribute__((noinline))
+
 typedef struct two3 {
     pir_two_limbs c[3];
 } two3;
@@ -78,7 +81,7 @@ static inline uint32_t bits_of(const pir_two_limbs c[3]) {
 }
 
 /* A double as an integer in units of 2^exponent, where that is below 2^bits. */
-static inline bool get_double(double x, int exponent, uint32_t bits, pir_two_limbs *ret_value) {
+RARE static bool get_double(double x, int exponent, uint32_t bits, pir_two_limbs *ret_value) {
     int shift;
     uint64_t mantissa = pir_double_split(x, &shift);
     *ret_value = 0;
@@ -94,7 +97,7 @@ static inline bool get_double(double x, int exponent, uint32_t bits, pir_two_lim
 }
 
 /* The least exponent of a bit of `count` doubles that is set; INT32_MAX where there is none. */
-static inline int low_bit(const double *c, int count) {
+RARE static int low_bit(const double *c, int count) {
     int low = INT32_MAX;
     for (int k = 0; k < count; k++) {
         int e = pir_double_low_bit(c[k]);
@@ -104,7 +107,7 @@ static inline int low_bit(const double *c, int count) {
 }
 
 /* As set_short of exact/rotation.c does, where N is short. */
-static inline bool get_turning(pir_quat given, turning *to) {
+RARE static bool get_turning(pir_quat given, turning *to) {
     const double c[4] = {given.x, given.y, given.z, given.w};
     int low = low_bit(c, 4);
     pir_two_limbs q[4], square[4];
@@ -129,7 +132,7 @@ static inline bool get_turning(pir_quat given, turning *to) {
     return true;
 }
 
-static inline bool get_vector(const pir_int3 *v, uint32_t bits, two3 *ret_v) {
+RARE static bool get_vector(const pir_int3 *v, uint32_t bits, two3 *ret_v) {
     return pir_int_get_two(&v->c[0], bits, &ret_v->c[0]) && pir_int_get_two(&v->c[1], bits, &ret_v->c[1]) &&
            pir_int_get_two(&v->c[2], bits, &ret_v->c[2]);
 }
@@ -152,13 +155,13 @@ static inline void shift_vector(two3 *v, int shift) {
 }
 
 /* to = M v. */
-static inline void turn(const turning *by, const two3 *v, pir_int256 to[3]) {
+RARE static void turn(const turning *by, const two3 *v, pir_int256 to[3]) {
     for (int i = 0; i < 3; i++)
         to[i] = pir_two_dot(by->m[i], v->c);
 }
 
 /* M v, where that is brief when multiplied by so many bits more. */
-static inline bool turn_briefly(const turning *by, const two3 *v, uint32_t more, two3 *to) {
+RARE static bool turn_briefly(const turning *by, const two3 *v, uint32_t more, two3 *to) {
     if (by->bits + bits_of(v->c) + more > BRIEF_BITS)
         return false;
     for (int i = 0; i < 3; i++)
@@ -167,7 +170,7 @@ static inline bool turn_briefly(const turning *by, const two3 *v, uint32_t more,
 }
 
 /* to = M v · 2^shift. */
-static inline void turn_shifted(const turning *by, two3 *v, int shift, pir_int256 to[3]) {
+RARE static void turn_shifted(const turning *by, two3 *v, int shift, pir_int256 to[3]) {
     two3 turned;
     if (turn_briefly(by, v, 0, &turned)) {
         for (int k = 0; k < 3; k++) {
@@ -406,7 +409,7 @@ static pir_int512 facet_height(const turned_both *both, const two3 *m, bool of_p
 }
 
 /* a × b, where it is short for certain. */
-static bool cross_short(const two3 *a, const two3 *b, two3 *to) {
+RARE static bool cross_short(const two3 *a, const two3 *b, two3 *to) {
     if (bits_of(a->c) + bits_of(b->c) + 1 > VECTOR_BITS)
         return false;
     for (int k = 0; k < 3; k++) {

@@ -6,7 +6,7 @@
  * The integers are those of placed.h but for powers of two, and numbers come from them by the same steps, so they have
  * the same bits. Every call returns false where the integers would be too long; then nothing is said.
  *
- * Code that few frames reach comes from memory, and that takes longer than its instructions: `cold` has it short.
+ * Few frames come here, so code comes from memory, and that takes longer than its instructions: `cold` has it short.
  */
 #ifndef PIR_QUERY_DECIDE_SHORT_NUMBERS_H
 #define PIR_QUERY_DECIDE_SHORT_NUMBERS_H
