@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// How pairs and scenes grow: with the facets of both bodies, with the pairs that turn at once, and with the bodies of a
-// scene that all move. Each line of pairs_growth.csv: what grows and how many there are; nanoseconds for each of them,
-// median, 99th percentile and worst of the frames, for facets of one answer by the clock, the least of three replays,
-// else in CPU time; the bytes of all that is there, polytopes but of "pairs", where all share one; the exponents of
-// time and bytes, by least squares over all sizes up to the row's.
+// How pairs, scenes and sums grow: with the facets of both bodies, the pairs that turn at once, the bodies of a scene
+// that all move, and with the facets of a sum, up to 10^7. Each line of pairs_growth.csv: what grows and how
+// many there are; nanoseconds for each of them, or for the whole sum, median, 99th percentile and worst of the frames,
+// for facets of one answer by the clock, the least of three replays, else in CPU time; the bytes of all that is there,
+// polytopes but of "pairs", where all share one; the exponents of time and bytes, by least squares over all sizes up to
+// the row's.
 //
-//     bench_many FOLDER
+// GROWS leaves out all others: facets, pairs, bodies, sums.
+//
+//     bench_many FOLDER [GROWS]
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -249,20 +252,59 @@ void ask_bodies(FILE *csv) {
     pir_polytope_release(p);
 }
 
+// The sum of a geodesic sphere and itself at some rotation, made anew and brought on by a 50,000th of a turn.
+void ask_sums(FILE *csv) {
+    Growing rebuilt(csv, "sums rebuilt"), updated(csv, "sums updated");
+    static const int levels[] = {4, 12, 39, 126, 401};
+    for (uint32_t k = 0; k < results_count(5); k++) {
+        Counted counted;
+        pir_polytope *p = sphere(levels[k], &counted.allocator);
+        pir_sum_options options = pir_sum_options_default();
+        options.allocator = &counted.allocator;
+        pir_sum *sum;
+        check(pir_sum_create(p, p, {0.1, 0.2, 0.3, 0.9}, &options, &sum));
+        std::vector<double> times[2];
+        const int frames = (int)results_count(k < 4 ? 20 : 5);
+        for (int pass = 0; pass < 2; pass++)
+            for (int i = 0; i < frames; i++) {
+                const double half = PI * i / 50000, s = std::sin(half), c = std::cos(half);
+                // (0.1, 0.2, 0.3, 0.9) turned about z
+                const pir_quat at = {0.1 * c - 0.2 * s, 0.2 * c + 0.1 * s, 0.3 * c + 0.9 * s, 0.9 * c - 0.3 * s};
+                const pir_method method = pass == 0 ? PIR_METHOD_WALK : PIR_METHOD_UPDATE;
+                const double ns = cpu_nanoseconds([&] { check(pir_sum_rotate(sum, at, method)); });
+                // the first updates after a rebuild check everything
+                if (pass == 0 || i >= frames / 4)
+                    times[pass].push_back(ns);
+            }
+        const double facets = 2.0 * pir_polytope_facet_count(p) + pir_sum_ee_count(sum);
+        rebuilt.add(facets, times[0], 1, false, counted.bytes);
+        updated.add(facets, times[1], 1, false, counted.bytes);
+        pir_sum_destroy(sum);
+        pir_polytope_release(p);
+    }
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: bench_many FOLDER\n");
+    if (argc != 2 && argc != 3) {
+        std::fprintf(stderr, "usage: bench_many FOLDER [GROWS]\n");
         return 2;
     }
+    const std::string only = argc > 2 ? argv[2] : "";
+    auto is_asked = [&](const char *what) { return only.empty() || only == what; };
     results where = results_new(argv[1]);
     FILE *csv = results_open(&where, "pairs_growth.csv");
     std::fprintf(csv, "what,count,ns,p99_ns,worst_ns,bytes,time_exponent,bytes_exponent\n");
     for (bool jumps : {false, true})
-        ask_facets(csv, jumps, clock_cost());
-    ask_pairs(csv);
-    ask_bodies(csv);
+        if (is_asked("facets"))
+            ask_facets(csv, jumps, clock_cost());
+    if (is_asked("pairs"))
+        ask_pairs(csv);
+    if (is_asked("bodies"))
+        ask_bodies(csv);
+    if (is_asked("sums"))
+        ask_sums(csv);
     results_close(csv, "pairs_growth.csv");
     std::printf("results in %s\n", where.folder);
     return 0;

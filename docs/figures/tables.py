@@ -52,7 +52,8 @@ def pairs_motions(r):
 
 def pairs_growth(r):
     titles = {"facets": "facets of each body, a signed distance", "facets teleport": "the same, a new pose each time",
-              "pairs": "pairs of 20 points, each", "bodies": "moving bodies of a scene, each"}
+              "pairs": "pairs of 20 points, each", "bodies": "moving bodies of a scene, each",
+              "sums rebuilt": "facets of a sum, made anew", "sums updated": "the same, after a 50,000th of a turn"}
     rows = []
     for what, title in titles.items():
         found = r.pairs_growth.all(what=what)
