@@ -57,11 +57,14 @@ static inline bool set_relative_rotation(pir_workspace *workspace, const pir_qua
 __attribute__((noinline)) static pir_status set_any_rotation(pir_workspace *workspace, const pir_pair_input *input) {
     if (workspace->is_turned && set_relative_rotation(workspace, &input->pose_q.rotation, &input->pose_p.rotation))
         return PIR_OK;
-    pir_status status = pir_rotation_set_relative(&workspace->rotation, input->pose_q.rotation, input->pose_p.rotation);
-    workspace->frame.is_set = false;
-    if (status == PIR_OK)
-        pir_frame_turn(&workspace->frame, &workspace->rotation);
-    return status;
+    pir_rotation *rotation = &workspace->rotation;
+    pir_status status = pir_rotation_set_relative(rotation, input->pose_q.rotation, input->pose_p.rotation);
+    if (status != PIR_OK)
+        return status;
+    workspace->frame.unit = rotation->unit;
+    workspace->frame.r = rotation->r;
+    pir_frame_set_given(&workspace->frame, rotation->given, rotation->rest);
+    return PIR_OK;
 }
 
 /* --- every call --- */

@@ -10,11 +10,13 @@
 #include <string.h>
 
 #include <pirouette/scene_file.h>
+#include <pirouette/trimesh_contact.h>
 
 #include "mesh/mesh_models.h"
 #include "scene/scene_bodies.h"
 #include "scene/twin_scenes.h"
 #include "support/memory.h"
+#include "support/vectors.h"
 
 #define MOST 512
 
@@ -432,6 +434,87 @@ static void contacts_change_no_states(void **state) {
     assert_true(contacts > 10 * cases(12));
 }
 
+/* The contacts of body `i` with the ground that the scene tells, in the order of their ids. */
+static size_t told_contacts(const twin_scenes *t, uint32_t i, pir_surface_contact *ret_contacts) {
+    size_t events, count = 0;
+    const pir_scene_event *event = pir_scene_events(t->with, &events);
+    for (size_t e = 0; e < events; e++) {
+        const bool is_p = event[e].body_p == t->body[i] && event[e].body_q == t->ground;
+        if (!is_p && !(event[e].body_q == t->body[i] && event[e].body_p == t->ground))
+            continue;
+        for (uint32_t k = 0; k < event[e].contact_count; k++) {
+            const pir_contact *c = &event[e].contacts[k];
+            assert_true(count < MOST);
+            ret_contacts[count++] = (pir_surface_contact){.point_p = is_p ? c->point_p : c->point_q,
+                                                          .normal = test_add(test_zero, event[e].normal, is_p ? 1 : -1),
+                                                          .distance = c->distance,
+                                                          .id = c->id};
+        }
+    }
+    return count;
+}
+
+static int by_id(const void *a, const void *b) {
+    const uint64_t x = ((const pir_surface_contact *)a)->id, y = ((const pir_surface_contact *)b)->id;
+    return (x > y) - (x < y);
+}
+
+/* The scene, which knows the triangles that are near, tells what a search of the whole surface finds. */
+static size_t compare_with_search(const twin_scenes *t, pir_workspace *workspace, uint32_t i, double margin,
+                                  uint64_t number) {
+    static pir_surface_contact told[MOST], found[MOST];
+    pir_body_state ground, body;
+    pir_surface_contact_result result;
+    assert_int_equal(pir_scene_get_body(t->with, t->ground, &ground), PIR_OK);
+    assert_int_equal(pir_scene_get_body(t->with, t->body[i], &body), PIR_OK);
+    const pir_posed_surface surface = {{ground.mesh, ground.field}, ground.pose};
+    const pir_surface_contact_input input = {.pose = body.pose,
+                                             .radius = body.radius + ground.radius,
+                                             .margin = margin,
+                                             .surfaces = &surface,
+                                             .surface_count = 1};
+    if (body.sensor)
+        return 0;
+    assert_int_equal(pir_surface_contacts(t->shape[i], workspace, &input, MOST, found, &result), PIR_OK);
+    const size_t count = told_contacts(t, i, told);
+    expect(count == result.contacts, "case %llu, body %u: %zu contacts, %zu by a search", (unsigned long long)number, i,
+           count, result.contacts);
+    qsort(told, count, sizeof *told, by_id);
+    qsort(found, count, sizeof *found, by_id);
+    for (size_t k = 0; k < count; k++) {
+        const pir_vec3 own = test_add(found[k].point_p, found[k].normal, ground.radius);
+        expect(told[k].id == found[k].id && fabs(told[k].distance - found[k].distance) <= 1e-12 * t->size &&
+                   test_length(test_add(told[k].normal, found[k].normal, -1)) <= 1e-9 &&
+                   test_length(test_add(told[k].point_p, own, -1)) <= 1e-9 * t->size,
+               "case %llu, body %u, contact %zu", (unsigned long long)number, i, k);
+    }
+    return count;
+}
+
+static void contacts_are_those_that_a_search_finds(void **state) {
+    (void)state;
+    static twin_scenes t;
+    pir_workspace *workspace;
+    assert_int_equal(pir_workspace_create(NULL, &workspace), PIR_OK);
+    uint64_t contacts = 0;
+    for (uint64_t n = 0; n < cases(48); n++) {
+        twin_options options = options_of(n);
+        options.scene.detail = PIR_SCENE_MANIFOLDS;
+        options.scene.margin = n % 4 == 0 ? 0 : 0.125;
+        twin_init(&t, 9000 + n, &options);
+        for (int frame = 0; frame < 12; frame++) {
+            twin_move(&t, 1);
+            assert_int_equal(pir_scene_update(t.with, t.move, t.moves), PIR_OK);
+            for (uint32_t i = 0; i < TWIN_BODIES; i++)
+                contacts += compare_with_search(&t, workspace, i, options.scene.margin, n);
+        }
+        twin_finish(&t);
+    }
+    print_message("%llu contacts\n", (unsigned long long)contacts);
+    assert_true(contacts > 10 * cases(48));
+    pir_workspace_destroy(workspace);
+}
+
 /* --- bodies --- */
 
 static void what_is_no_body_is_refused(void **state) {
@@ -649,6 +732,7 @@ int main(void) {
         cmocka_unit_test(a_side_is_that_of_the_triangle),
         cmocka_unit_test(a_flat_floor_has_no_inner_edges),
         cmocka_unit_test(contacts_change_no_states),
+        cmocka_unit_test(contacts_are_those_that_a_search_finds),
         cmocka_unit_test(what_is_no_body_is_refused),
         cmocka_unit_test(triangles_come_and_go),
         cmocka_unit_test(removed_surfaces_leave_nothing),

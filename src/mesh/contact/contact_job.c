@@ -116,6 +116,8 @@ struct gathering {
     bool moved, one_sided;
     pir_walk_box box;
     double most;
+    const uint64_t *list; /* of the surface, or NULL */
+    size_t listed;
 };
 
 static void measure(const void *context, const pir_mesh_boxes *boxes, double ret_near[PIR_MESH_WIDTH]) {
@@ -139,11 +141,9 @@ static pir_vec3 unit_or_zero(pir_vec3 n) {
     return square > 0x1p-900 ? pir_vec_scale(n, 1 / sqrt(square)) : (pir_vec3){0, 0, 0};
 }
 
-static bool look(void *context, const pir_met_triangle *met) {
-    struct gathering *g = context;
+/* Takes a triangle; false where there is no room. */
+static bool take(struct gathering *g, const pir_met_triangle *met) {
     pir_contact_job *job = g->job;
-    if (!pir_walk_box_meets(&g->box, &met->tri))
-        return true;
     if (job->triangle_count >= PIR_CONTACT_TRIANGLES_MOST || !reserve_triangle(job)) {
         job->out_of_memory = true;
         return false;
@@ -158,6 +158,25 @@ static bool look(void *context, const pir_met_triangle *met) {
         s->p[i] = g->moved ? pir_vec_add(pir_mat_apply(g->r, met->tri.p[i]), g->t) : met->tri.p[i];
     s->front = unit_or_zero(pir_vec_cross(pir_vec_sub(s->p[1], s->p[0]), pir_vec_sub(s->p[2], s->p[0])));
     return true;
+}
+
+/* Whether a triangle is in the part of the list that is of its surface. */
+static bool is_listed(const struct gathering *g, uint32_t number) {
+    const uint64_t key = (uint64_t)g->surface << 32 | number;
+    size_t low = 0, high = g->listed;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        low = g->list[middle] < key ? middle + 1 : low;
+        high = g->list[middle] < key ? high : middle;
+    }
+    return low < g->listed && g->list[low] == key;
+}
+
+static bool look(void *context, const pir_met_triangle *met) {
+    struct gathering *g = context;
+    if (g->list && !is_listed(g, met->number))
+        return true;
+    return !pir_walk_box_meets(&g->box, &met->tri) || take(g, met);
 }
 
 static double component(pir_vec3 v, int k) {
@@ -201,6 +220,18 @@ static double surface_size(const pir_posed_surface *posed) {
     return reach[0] + reach[1] + reach[2] + pir_length(posed->pose.translation);
 }
 
+/* Takes the part of the list that is of the surface. */
+static void set_list(struct gathering *g, const pir_contact_list *list) {
+    size_t begin = 0, end;
+    while (begin < list->count && list->triangle[begin] >> 32 < g->surface)
+        begin++;
+    for (end = begin; end < list->count && list->triangle[end] >> 32 == g->surface;)
+        end++;
+    g->list = list->triangle + begin;
+    g->listed = end - begin;
+}
+
+/* The triangles of a list are taken in the order of the walk, on which the choice among equals depends. */
 static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) {
     const pir_posed_surface *posed = &job->input->surfaces[surface];
     pir_rotation rotation;
@@ -212,6 +243,15 @@ static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) 
                           .moved = !turns_nothing(&posed->pose),
                           .one_sided =
                               posed->surface.mesh ? !posed->surface.mesh->two_sided : !posed->surface.field->two_sided};
+    if (job->list)
+        set_list(&g, job->list);
+    if (g.list && g.listed < 2) {
+        for (size_t i = 0; i < g.listed; i++) {
+            const pir_met_triangle met = pir_surface_met(posed->surface, (uint32_t)g.list[i]);
+            (void)take(&g, &met);
+        }
+        return;
+    }
     double size = surface_size(posed) + job->radius + grow + pir_length(job->input->pose.translation);
     set_box(&g, job, grow, 0x1p-44 * size);
     pir_surface_walk(posed->surface, &(pir_walk){measure, look, &g, &g.most, &g.box});
@@ -246,7 +286,11 @@ pir_status pir_contact_job_gather(pir_contact_job *job, double grow) {
         return job->triangle_count >= PIR_CONTACT_TRIANGLES_MOST ? PIR_ERR_LIMIT : PIR_ERR_MEMORY;
     set_size(job);
     job->counts.triangles = job->triangle_count;
-    return PIR_OK;
+    return pir_contact_exact_reserve(job);
+}
+
+pir_status pir_contact_job_gather_first(pir_contact_job *job) {
+    return pir_contact_job_gather(job, job->input->margin + job->input->radius + SHALLOW * job->radius);
 }
 
 bool pir_contact_reserve_order(pir_contact_job *job) {
@@ -260,8 +304,7 @@ bool pir_contact_reserve_order(pir_contact_job *job) {
     return true;
 }
 
-pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
-                                 double grow) {
+pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input) {
     pir_status status = check_input(input);
     if (status == PIR_OK)
         status = check_pose(&input->pose, &job->rotation);
@@ -274,11 +317,7 @@ pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, co
     job->surface_rotation.integers = &job->integers[1];
     job->surface = UINT32_MAX;
     status = turn_vertices(job);
-    if (status == PIR_OK)
-        status = pir_contact_take_beside(job);
-    if (status == PIR_OK)
-        status = pir_contact_job_gather(job, grow + SHALLOW * job->radius);
-    return status == PIR_OK ? pir_contact_exact_reserve(job) : status;
+    return status == PIR_OK ? pir_contact_take_beside(job) : status;
 }
 
 void pir_contact_job_finish(pir_contact_job *job) {

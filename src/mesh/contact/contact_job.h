@@ -37,6 +37,12 @@ typedef struct pir_contact_near {
     int axis;        /* of the world, that n has exactly; −1: none is known */
 } pir_contact_near;
 
+/* The triangles that alone are within the margin of P, which meets none: each its surface << 32 | its number, rising. */
+typedef struct pir_contact_list {
+    const uint64_t *triangle;
+    size_t count;
+} pir_contact_list;
+
 /* A triangle near P. */
 typedef struct pir_near_triangle {
     pir_vec3 p[3];  /* in the world */
@@ -63,7 +69,8 @@ typedef struct pir_contact_job {
     pir_allocator allocator;
     const pir_polytope *p;
     const pir_surface_contact_input *input;
-    pir_vec3 *vertex; /* of P, turned */
+    const pir_contact_list *list; /* or NULL: triangles are looked for */
+    pir_vec3 *vertex;             /* of P, turned */
     uint32_t vertex_room;
     pir_vec3 *turned; /* normals of P's facets, then directions of its edges, turned: see pir_contact_turn */
     uint32_t turned_room;
@@ -93,10 +100,17 @@ typedef struct pir_contact_job {
     pir_surface_contact_counts counts;
 } pir_contact_job;
 
-/* Takes the input, and gathers the triangles whose boxes meet that of P grown by `grow`, and a little more. */
-pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input,
-                                 double grow);
-/* Gathers anew. */
+/* pir_surface_contacts where it is known which triangles are near: finds the same. If P meets one all the same, or with
+ * its radius, the list is left alone. `list` may be NULL. */
+pir_status pir_surface_contacts_among(const pir_polytope *p, pir_workspace *workspace,
+                                      const pir_surface_contact_input *input, const pir_contact_list *list, size_t most,
+                                      pir_surface_contact *ret_contacts, pir_surface_contact_result *ret_result);
+
+/* Takes the input. */
+pir_status pir_contact_job_begin(pir_contact_job *job, const pir_polytope *p, const pir_surface_contact_input *input);
+/* Gathers the triangles of job->list, or those that may be within the margin, and a little more. */
+pir_status pir_contact_job_gather_first(pir_contact_job *job);
+/* Gathers those whose boxes meet that of P grown by `grow`. */
 pir_status pir_contact_job_gather(pir_contact_job *job, double grow);
 /* Sets `turned`, once a call. */
 void pir_contact_turn(pir_contact_job *job);

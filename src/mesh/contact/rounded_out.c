@@ -78,8 +78,7 @@ static pir_status gather_about(pir_contact_job *job, pir_vec3 moved) {
     double need = fmax(fabs(moved.x), fmax(fabs(moved.y), fabs(moved.z))) + job->input->radius;
     if (need <= job->grown)
         return PIR_OK;
-    pir_status status = pir_contact_job_gather(job, 1.25 * need);
-    return status == PIR_OK ? pir_contact_exact_reserve(job) : status;
+    return pir_contact_job_gather(job, 1.25 * need);
 }
 
 /* From where *out leads, by a step; *ret_deepest is how deep P was there. */

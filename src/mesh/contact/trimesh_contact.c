@@ -395,6 +395,22 @@ static pir_status find_contacts(struct room *room, bool meets) {
     return choose_points(room);
 }
 
+/* Gathers the triangles, and looks at P where it is: whether it meets any, its state, and what is nearest. */
+static pir_status look_where_it_is(struct room *room, bool *ret_meets, pir_surface_contact_result *result) {
+    pir_contact_job *job = &room->job;
+    pir_status status = pir_contact_job_gather_first(job);
+    if (status != PIR_OK)
+        return status;
+    const bool meets = pir_contact_look_first(job);
+    if (!meets)
+        pir_contact_prove_all(job, job->input->pose.translation);
+    result->state = state_of(job, meets);
+    if (!meets)
+        set_apart(job, result);
+    *ret_meets = meets;
+    return PIR_OK;
+}
+
 static pir_status run(struct room *room, size_t most, pir_surface_contact *contacts,
                       pir_surface_contact_result *ret_result) {
     pir_contact_job *job = &room->job;
@@ -403,15 +419,18 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
                                          .triangle = PIR_TRIANGLE_NONE,
                                          .is_out = true,
                                          .is_shortest = true};
-    const bool meets = pir_contact_look_first(job);
-    if (!meets)
-        pir_contact_prove_all(job, job->input->pose.translation);
-    result.state = state_of(job, meets);
-    if (!meets)
-        set_apart(job, &result);
+    bool meets;
+    pir_status status = look_where_it_is(room, &meets, &result);
+    if (status == PIR_OK && job->list && result.state != PIR_OUTSIDE) {
+        // the list is of what is within the margin: ways out go farther
+        job->list = NULL;
+        status = look_where_it_is(room, &meets, &result);
+    }
+    if (status != PIR_OK)
+        return status;
     if (!meets && result.state != PIR_INSIDE)
         pir_contact_keep_within(job, job->input->margin + job->input->radius);
-    pir_status status = find_contacts(room, meets);
+    status = find_contacts(room, meets);
     if (status == PIR_OK && result.state == PIR_INSIDE && job->input->radius > 0)
         status = pir_contact_find_rounded_way_out(job, &room->out);
     if (status != PIR_OK)
@@ -435,6 +454,12 @@ static pir_status run(struct room *room, size_t most, pir_surface_contact *conta
 pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace, const pir_surface_contact_input *input,
                                 size_t most, pir_surface_contact *ret_contacts,
                                 pir_surface_contact_result *ret_result) {
+    return pir_surface_contacts_among(p, workspace, input, NULL, most, ret_contacts, ret_result);
+}
+
+pir_status pir_surface_contacts_among(const pir_polytope *p, pir_workspace *workspace,
+                                      const pir_surface_contact_input *input, const pir_contact_list *list, size_t most,
+                                      pir_surface_contact *ret_contacts, pir_surface_contact_result *ret_result) {
     if (!p || !workspace || !input || !ret_result || (!ret_contacts && most > 0))
         return PIR_ERR_ARGUMENT;
     pir_scratch *scratch = ((pir_workspace_head *)workspace)->scratch;
@@ -442,6 +467,7 @@ pir_status pir_surface_contacts(const pir_polytope *p, pir_workspace *workspace,
     if (!room)
         return PIR_ERR_MEMORY;
     room->job.allocator = scratch->allocator;
-    pir_status status = pir_contact_job_begin(&room->job, p, input, input->margin + input->radius);
+    room->job.list = list;
+    pir_status status = pir_contact_job_begin(&room->job, p, input);
     return status == PIR_OK ? run(room, most, ret_contacts, ret_result) : status;
 }

@@ -414,8 +414,6 @@ static pir_status leave_start(pir_contact_job *job, struct step_out *by, pir_way
         if (out->is_shortest || need <= job->grown)
             break;
         pir_status status = pir_contact_job_gather(job, need);
-        if (status == PIR_OK)
-            status = pir_contact_exact_reserve(job);
         if (status != PIR_OK)
             return status;
         (void)pir_contact_look(job, start);

@@ -263,6 +263,22 @@ pir_tri pir_surface_tri(pir_surface_ref surface, uint32_t triangle) {
     return surface.mesh ? pir_trimesh_tri(surface.mesh, triangle) : pir_height_tri(surface.field, triangle);
 }
 
+pir_met_triangle pir_surface_met(pir_surface_ref surface, uint32_t triangle) {
+    pir_met_triangle met = {triangle, {0, 0, 0}, pir_surface_tri(surface, triangle)};
+    if (surface.mesh) {
+        for (int k = 0; k < 3; k++)
+            met.id[k] = surface.mesh->corner[triangle][k];
+        return met;
+    }
+    const uint32_t cell = triangle / 2, columns = pir_height_cell_columns(surface.field);
+    const uint32_t from = cell / columns * surface.field->columns + cell % columns,
+                   across = from + surface.field->columns + 1;
+    met.id[0] = from;
+    met.id[1] = triangle % 2 == 0 ? from + 1 : across;
+    met.id[2] = triangle % 2 == 0 ? across : across - 1;
+    return met;
+}
+
 uint32_t pir_surface_material(pir_surface_ref surface, uint32_t triangle) {
     if (surface.mesh)
         return surface.mesh->material ? surface.mesh->material[triangle] : 0;

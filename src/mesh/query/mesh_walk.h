@@ -47,6 +47,8 @@ pir_status pir_surface_check(pir_surface_ref surface);
 void pir_surface_walk(pir_surface_ref surface, const pir_walk *walk);
 
 pir_tri pir_surface_tri(pir_surface_ref surface, uint32_t triangle);
+/* A triangle, which is none of a hole, as a walk comes to it. */
+pir_met_triangle pir_surface_met(pir_surface_ref surface, uint32_t triangle);
 uint32_t pir_surface_material(pir_surface_ref surface, uint32_t triangle);
 
 /* A box around all triangles. */

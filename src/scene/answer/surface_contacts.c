@@ -107,6 +107,29 @@ static bool list_beside(const struct touched *touched, const pir_scene_piece *pi
     return true;
 }
 
+/*
+ * Lists the triangles of the union, which were all found to be apart: no other is within the margin of the piece. False
+ * where it has met one, or asks of other pieces too, or out of memory; then the surfaces are asked for triangles.
+ */
+static bool list_triangles(const struct touched *touched, pir_contact_list *ret_list) {
+    pir_scene_worker *worker = touched->worker;
+    uint32_t count = 0, surface = UINT32_MAX, last = UINT32_MAX;
+    if (!PIR_GROW(&touched->scene->allocator, worker->near_triangle, worker->near_triangle_capacity, touched->count))
+        return false;
+    for (uint32_t i = 0; i < touched->count; i++) {
+        const pir_scene_item *item = &touched->item[i];
+        if (!is_at_hand(touched, i))
+            continue;
+        if (!is_triangle(touched, i) || item->found->state != PIR_OUTSIDE)
+            return false;
+        surface += body_of(item) != last;
+        last = body_of(item);
+        worker->near_triangle[count++] = (uint64_t)surface << 32 | (uint32_t)item->key.pieces;
+    }
+    *ret_list = (pir_contact_list){worker->near_triangle, count};
+    return true;
+}
+
 /* The contacts of the piece with the union, in worker->met; *ret_near is whether any, ghosts included, was near. */
 static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_near) {
     const pir_scene *scene = touched->scene;
@@ -116,6 +139,8 @@ static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_ne
     pir_surface_contact_input input = pir_surface_contact_input_default();
     pir_surface_contact_result result = {.contacts = 0};
     uint32_t room = 0, beside;
+    pir_contact_list list;
+    const bool listed = list_triangles(touched, &list);
     input.surface_count = list_surfaces(touched);
     if (input.surface_count == 0 || !list_beside(touched, piece, &beside))
         return PIR_ERR_MEMORY;
@@ -131,7 +156,8 @@ static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_ne
         room = room > 0 ? 2 * room : CONTACTS;
         if (!PIR_GROW(&scene->allocator, worker->met, worker->met_capacity, room))
             return PIR_ERR_MEMORY;
-        status = pir_surface_contacts(piece->extent.polytope, worker->workspace, &input, room, worker->met, &result);
+        status = pir_surface_contacts_among(piece->extent.polytope, worker->workspace, &input, listed ? &list : NULL,
+                                            room, worker->met, &result);
     }
     *ret_count = (uint32_t)result.contacts;
     *ret_near = result.counts.near > 0;

@@ -144,6 +144,7 @@ void pir_scene_destroy(pir_scene *scene) {
         PIR_FREE(a, scene->worker[i].surface, scene->worker[i].surface_capacity);
         PIR_FREE(a, scene->worker[i].met, scene->worker[i].met_capacity);
         PIR_FREE(a, scene->worker[i].beside, scene->worker[i].beside_capacity);
+        PIR_FREE(a, scene->worker[i].near_triangle, scene->worker[i].near_triangle_capacity);
     }
     PIR_FREE(a, scene->worker, scene->threads);
     pir_scene_pairs_finish(&scene->pairs, a);
