@@ -16,9 +16,9 @@ static pir_status turn(pir_contact_job *job, const pir_polytope *p, uint32_t fir
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         const pir_vec3 x = pir_mat_apply(&job->rotation.r, p->vertex[v]);
         job->beside_vertex[first + v] = x;
-        low = (pir_vec3){fmin(low.x, x.x), fmin(low.y, x.y), fmin(low.z, x.z)};
-        high = (pir_vec3){fmax(high.x, x.x), fmax(high.y, x.y), fmax(high.z, x.z)};
-        most = fmax(most, pir_length(x));
+        low = (pir_vec3){pir_lesser(low.x, x.x), pir_lesser(low.y, x.y), pir_lesser(low.z, x.z)};
+        high = (pir_vec3){pir_greater(high.x, x.x), pir_greater(high.y, x.y), pir_greater(high.z, x.z)};
+        most = pir_greater(most, pir_length(x));
     }
     *ret_piece = (pir_contact_piece){p, first, low, high, most};
     return most <= PIR_MESH_FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
@@ -62,7 +62,7 @@ pir_status pir_contact_take_beside(pir_contact_job *job) {
         pir_status status = turn(job, p, first, &job->beside[job->beside_count]);
         if (status != PIR_OK)
             return status;
-        job->beside_radius = fmax(job->beside_radius, job->beside[job->beside_count++].radius);
+        job->beside_radius = pir_greater(job->beside_radius, job->beside[job->beside_count++].radius);
         first += p->vertex_count;
     }
     return PIR_OK;
@@ -105,7 +105,7 @@ static pir_contact_told told_below(const struct inner *c, const pir_contact_piec
     const pir_vec3 n = c->near->n;
     double least = HUGE_VAL;
     for (uint32_t v = 0; v < piece->p->vertex_count; v++)
-        least = fmin(least, pir_vec_dot(n, pir_vec_sub(c->job->beside_vertex[piece->first + v], c->x)));
+        least = pir_lesser(least, pir_vec_dot(n, pir_vec_sub(c->job->beside_vertex[piece->first + v], c->x)));
     return told(-least, 4 * c->error * pir_length(n) + 2 * c->near->n_error * (piece->radius + pir_length(c->x)));
 }
 
@@ -129,7 +129,7 @@ static double error_of(const struct inner *c) {
         spread = job->size / pir_length(pir_vec_sub(d[1], d[0]));
     if (ids->count == 3) {
         const pir_vec3 e = pir_vec_sub(d[1], d[0]), f = pir_vec_sub(d[2], d[0]), n = pir_vec_cross(e, f);
-        const double wide = fmax(pir_length(e), pir_length(f));
+        const double wide = pir_greater(pir_length(e), pir_length(f));
         spread = job->size * wide * wide * wide / pir_vec_dot(n, n);
     }
     return 256 * (1 + spread) * (job->error + 0x1p-50 * job->size);

@@ -285,7 +285,7 @@ static uint32_t least_vertex(pir_contact_job *job, const pir_contact_place *plac
     pir_vec3 u = pir_int3_unit(n);
     double least = HUGE_VAL, room = 16 * job->error;
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        least = fmin(least, pir_vec_dot(u, job->vertex[v]));
+        least = pir_lesser(least, pir_vec_dot(u, job->vertex[v]));
     uint32_t best = UINT32_MAX, used = job->limbs.used;
     for (uint32_t v = 0; v < job->p->vertex_count; v++) {
         if (!(pir_vec_dot(u, job->vertex[v]) <= least + room))

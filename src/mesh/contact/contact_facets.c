@@ -15,10 +15,10 @@
 static double depth_along(const pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, pir_vec3 n) {
     double least = HUGE_VAL, along[3];
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        least = fmin(least, pir_vec_dot(n, job->vertex[v]));
+        least = pir_lesser(least, pir_vec_dot(n, job->vertex[v]));
     for (int k = 0; k < 3; k++)
         along[k] = pir_vec_dot(n, pir_vec_sub(s->p[k], t));
-    return fmax(along[0], fmax(along[1], along[2])) - least;
+    return pir_greater(along[0], pir_greater(along[1], along[2])) - least;
 }
 
 struct tour {
@@ -115,9 +115,9 @@ static uint32_t single_lowest(const pir_contact_job *job, pir_vec3 n, double nea
     uint32_t best = UINT32_MAX;
     for (uint32_t v = 0; v < job->p->vertex_count; v++) {
         const double along = pir_vec_dot(n, job->vertex[v]);
-        next = fmin(next, fmax(along, least));
+        next = pir_lesser(next, pir_greater(along, least));
         best = along < least ? v : best;
-        least = fmin(least, along);
+        least = pir_lesser(least, along);
     }
     return next - least > near ? best : UINT32_MAX;
 }
@@ -126,7 +126,7 @@ static uint32_t single_lowest(const pir_contact_job *job, pir_vec3 n, double nea
 static uint32_t single_highest(const pir_near_triangle *s, pir_vec3 n, double near) {
     const double h[3] = {pir_vec_dot(n, s->p[0]), pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])};
     for (uint32_t k = 0; k < 3; k++)
-        if (h[k] - fmax(h[(k + 1) % 3], h[(k + 2) % 3]) > near)
+        if (h[k] - pir_greater(h[(k + 1) % 3], h[(k + 2) % 3]) > near)
             return k;
     return 3;
 }
@@ -193,7 +193,7 @@ struct facet_search {
 
 static void find_least(void *context, const pir_contact_facet *facet) {
     struct facet_search *search = context;
-    search->least = fmin(search->least, facet->depth - facet->off);
+    search->least = pir_lesser(search->least, facet->depth - facet->off);
 }
 
 static pir_int3 exact_of(pir_contact_job *job, const pir_near_triangle *s, const pir_contact_facet *facet) {

@@ -86,7 +86,7 @@ static pir_status turn_vertices(pir_contact_job *job) {
     for (uint32_t v = 0; v < count; v++) {
         pir_vec3 x = pir_mat_apply(&job->rotation.r, job->p->vertex[v]);
         job->vertex[v] = x;
-        most = fmax(most, fmax(fabs(x.x), fmax(fabs(x.y), fabs(x.z))));
+        most = pir_greater(most, pir_greater(fabs(x.x), pir_greater(fabs(x.y), fabs(x.z))));
         widen(x.x, &job->low.x, &job->high.x);
         widen(x.y, &job->low.y, &job->high.y);
         widen(x.z, &job->low.z, &job->high.z);
@@ -265,12 +265,12 @@ static void set_size(pir_contact_job *job) {
         const pir_near_triangle *s = &job->triangle[i];
         const pir_pose *pose = &job->input->surfaces[s->surface].pose;
         for (int k = 0; k < 3; k++) {
-            far = fmax(far, pir_length(pir_vec_sub(s->p[k], t)));
+            far = pir_greater(far, pir_length(pir_vec_sub(s->p[k], t)));
             if (!turns_nothing(pose))
-                moved = fmax(moved, pir_length(s->local.p[k]) + pir_length(pose->translation));
+                moved = pir_greater(moved, pir_length(s->local.p[k]) + pir_length(pose->translation));
         }
     }
-    const double radius = fmax(job->radius, job->beside_radius);
+    const double radius = pir_greater(job->radius, job->beside_radius);
     job->size = far + radius + 2 * job->grown;
     job->error = 0x1p-47 * (radius + moved) + 0x1p-51 * job->size;
 }
@@ -364,8 +364,11 @@ bool pir_near_same_corner(const pir_contact_job *job, const pir_near_triangle *s
 
 uint32_t pir_contact_lowest(const pir_contact_job *job, pir_vec3 n) {
     uint32_t best = 0;
-    for (uint32_t v = 1; v < job->p->vertex_count; v++)
-        if (pir_vec_dot(n, job->vertex[v]) < pir_vec_dot(n, job->vertex[best]))
-            best = v;
+    double least = pir_vec_dot(n, job->vertex[0]);
+    for (uint32_t v = 1; v < job->p->vertex_count; v++) {
+        double along = pir_vec_dot(n, job->vertex[v]);
+        best = along < least ? v : best;
+        least = along < least ? along : least;
+    }
     return best;
 }

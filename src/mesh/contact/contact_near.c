@@ -24,17 +24,6 @@ static pir_vec3 difference(const pir_contact_job *job, pir_vec3 t, const pir_nea
     return pir_vec_sub(job->vertex[v], pir_vec_sub(s->p[w], t));
 }
 
-static uint32_t least_vertex(const pir_contact_job *job, pir_vec3 n) {
-    uint32_t best = 0;
-    double least = pir_vec_dot(n, job->vertex[0]);
-    for (uint32_t v = 1; v < job->p->vertex_count; v++) {
-        double along = pir_vec_dot(n, job->vertex[v]);
-        best = along < least ? v : best;
-        least = along < least ? along : least;
-    }
-    return best;
-}
-
 static uint32_t most_corner(const pir_near_triangle *s, pir_vec3 n) {
     double a = pir_vec_dot(n, s->p[0]), b = pir_vec_dot(n, s->p[1]), c = pir_vec_dot(n, s->p[2]);
     return a >= b ? (a >= c ? 0 : 2) : (b >= c ? 1 : 2);
@@ -113,10 +102,10 @@ static int holds_zero(const pir_vec3 d[4], double error) {
                       -volume(d[0], d[1], d[2])};
     double most = 0, least = HUGE_VAL;
     for (int k = 0; k < 4; k++) {
-        most = fmax(most, pir_length(d[k]));
+        most = pir_greater(most, pir_length(d[k]));
         if (!(sign[k] * sign[0] > 0))
             return 0;
-        least = fmin(least, fabs(sign[k]));
+        least = pir_lesser(least, fabs(sign[k]));
     }
     return least > 16 * most * most * error + 0x1p-48 * most * most * most ? 1 : -1;
 }
@@ -159,13 +148,13 @@ static bool descend(const pir_contact_job *job, pir_vec3 t, const pir_near_trian
     if (height != 0)
         n = height > 0 ? s->front : pir_vec_scale(s->front, -1);
     hull->ids.count = 0;
-    add(hull, job, t, s, least_vertex(job, n), most_corner(s, n));
+    add(hull, job, t, s, pir_contact_lowest(job, n), most_corner(s, n));
     hull->nearest = hull->d[0];
     hull->weight[0] = 1;
     for (int step = 0; step < MOST_STEPS; step++) {
         pir_vec3 x = hull->nearest;
         double square = pir_vec_dot(x, x);
-        uint32_t v = least_vertex(job, x), w = most_corner(s, x);
+        uint32_t v = pir_contact_lowest(job, x), w = most_corner(s, x);
         if (has(hull, v, w) || !(square > 0))
             return false;
         pir_vec3 d = difference(job, t, s, v, w);
@@ -202,7 +191,7 @@ static uint32_t facing_facet(const pir_contact_job *job, pir_vec3 n) {
     for (uint32_t f = 0; f < job->p->facet_count; f++) {
         const double facing = -pir_vec_dot(n, job->turned[f]);
         best = facing > most ? f : best;
-        most = fmax(most, facing);
+        most = pir_greater(most, facing);
     }
     return best;
 }
@@ -215,7 +204,7 @@ static bool guess(pir_contact_job *job, pir_vec3 t, const pir_near_triangle *s, 
     const pir_polytope *p = job->p;
     const double height = pir_vec_dot(s->front, pir_vec_sub(t, s->p[0]));
     const pir_vec3 n = height < 0 ? pir_vec_scale(s->front, -1) : s->front;
-    const uint32_t v = least_vertex(job, n);
+    const uint32_t v = pir_contact_lowest(job, n);
     if (take_three(job, t, s, (pir_contact_simplex){3, {v, v, v}, {0, 1, 2}}, hull))
         return true;
     if (p->dimension < 3)
@@ -354,13 +343,13 @@ static bool is_within(const pir_vec3 *d, uint32_t count, const double *weight, d
         return true;
     double most = 0, size = 0;
     for (uint32_t k = 0; k < count; k++)
-        size = fmax(size, pir_length(d[k]));
+        size = pir_greater(size, pir_length(d[k]));
     pir_vec3 e = pir_vec_sub(d[1], d[0]);
     double under = pir_vec_dot(e, e), wide = pir_length(e);
     if (count == 3) {
         pir_vec3 f = pir_vec_sub(d[2], d[0]), n = pir_vec_cross(e, f);
         under = pir_vec_dot(n, n);
-        wide = fmax(wide, pir_length(f));
+        wide = pir_greater(wide, pir_length(f));
         wide = wide * wide * wide;
     }
     // a weight times `under` is a sum of products of this size, each off by `error` in one factor
@@ -410,7 +399,7 @@ static bool is_proven(const pir_contact_job *job, const pir_contact_place *place
 
 /* Whether a direction certainly parts P from the triangle. */
 static bool is_parted(const pir_contact_job *job, pir_vec3 at, const pir_near_triangle *s, pir_vec3 n, double off) {
-    const pir_vec3 d = difference(job, at, s, least_vertex(job, n), most_corner(s, n));
+    const pir_vec3 d = difference(job, at, s, pir_contact_lowest(job, n), most_corner(s, n));
     const double length = pir_length(n);
     return length > 0 && pir_vec_dot(n, d) > length * (2 * off + 0x1p-48 * job->size);
 }
@@ -525,12 +514,15 @@ pir_contact_told pir_contact_told_behind(const pir_contact_job *job, pir_vec3 at
     pir_vec3 e = pir_vec_sub(s->p[1], s->p[0]), f = pir_vec_sub(s->p[2], s->p[0]), n = pir_vec_cross(e, f);
     double length = pir_length(n), off = 4 * job->error + error, most = -HUGE_VAL;
     double far = pir_length(pir_vec_sub(at, s->p[0])) + 2 * job->radius, sides = pir_length(e) + pir_length(f);
-    for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        most = fmax(most, pir_vec_dot(n, difference(job, at, s, v, 0)));
     double bound = off * (8 * sides * far + 2 * length) + 0x1p-48 * pir_length(e) * pir_length(f) * far;
-    most += grow * length;
-    if (fabs(most) > bound)
-        return most < 0 ? PIR_TOLD_YES : PIR_TOLD_NO;
+    // one vertex in front is enough, and of most bodies any is
+    for (uint32_t v = 0; v < job->p->vertex_count; v++) {
+        most = pir_greater(most, pir_vec_dot(n, difference(job, at, s, v, 0)) + grow * length);
+        if (most > bound)
+            return PIR_TOLD_NO;
+    }
+    if (most < -bound)
+        return PIR_TOLD_YES;
     return grow > 0 ? PIR_TOLD_NO : PIR_TOLD_NOTHING;
 }
 
@@ -598,7 +590,7 @@ bool pir_contact_is_beyond(const pir_contact_job *job, pir_vec3 t, const pir_nea
         return false;
     const pir_vec3 n = pir_vec_scale(way, 1 / length);
     for (int k = 0; k < 3; k++)
-        corner = fmax(corner, pir_vec_dot(n, pir_vec_sub(s->p[k], t)));
+        corner = pir_greater(corner, pir_vec_dot(n, pir_vec_sub(s->p[k], t)));
     span_along(job, n, &least, &most);
     return least - corner > reach;
 }

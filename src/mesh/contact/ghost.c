@@ -232,7 +232,7 @@ static bool step_beside(const pir_contact_job *job, const pir_contact_near *near
     double need = near->distance * cosine - r->near.distance - pir_vec_dot(m, moved);
     if (!(cosine > 0) || !(need < sine * margin))
         return false;
-    double step = fmax(need, 0) / sine + BEYOND * margin;
+    double step = pir_greater(need, 0) / sine + BEYOND * margin;
     *t = on_grid(job, pir_vec_add(*t, pir_vec_scale(across, step / sine)));
     return pir_length(pir_vec_sub(*t, from)) + near->distance <= margin;
 }

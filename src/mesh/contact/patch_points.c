@@ -128,7 +128,7 @@ static double height_at(const pir_contact_patch *patch, const double x[2]) {
     for (uint32_t k = 1; k + 1 < patch->count; k++) {
         double area = turn(a, patch->at[k], patch->at[k + 1]);
         best = area > most ? k : best;
-        most = fmax(most, area);
+        most = pir_greater(most, area);
     }
     if (!(most > 0))
         return patch->height[0];

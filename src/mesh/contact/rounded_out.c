@@ -27,7 +27,7 @@ static void add_demand(struct demands *demands, pir_vec3 n, double need) {
     for (uint32_t i = 0; i < demands->count; i++) {
         pir_vec3 way = pir_vec_sub(demands->demand[i].n, n);
         if (pir_vec_dot(way, way) < SAME_SQUARE) {
-            demands->demand[i].need = fmax(demands->demand[i].need, need);
+            demands->demand[i].need = pir_greater(demands->demand[i].need, need);
             return;
         }
     }
@@ -63,10 +63,10 @@ static pir_vec3 least_move(struct demands *demands) {
         double most = 0;
         for (uint32_t i = 0; i < demands->count; i++) {
             struct demand *d = &demands->demand[i];
-            double push = fmax(d->push + d->need - pir_vec_dot(d->n, x), 0), by = push - d->push;
+            double push = pir_greater(d->push + d->need - pir_vec_dot(d->n, x), 0), by = push - d->push;
             x = pir_vec_add(x, pir_vec_scale(d->n, by));
             d->push = push;
-            most = fmax(most, fabs(by));
+            most = pir_greater(most, fabs(by));
         }
         if (most <= 0x1p-40 * pir_length(x))
             break;
@@ -75,7 +75,7 @@ static pir_vec3 least_move(struct demands *demands) {
 }
 
 static pir_status gather_about(pir_contact_job *job, pir_vec3 moved) {
-    double need = fmax(fabs(moved.x), fmax(fabs(moved.y), fabs(moved.z))) + job->input->radius;
+    double need = pir_greater(fabs(moved.x), pir_greater(fabs(moved.y), fabs(moved.z))) + job->input->radius;
     if (need <= job->grown)
         return PIR_OK;
     return pir_contact_job_gather(job, 1.25 * need);
@@ -119,11 +119,11 @@ pir_status pir_contact_find_rounded_way_out(pir_contact_job *job, pir_way_out *o
     double bound = moved ? out->depth + radius : deepest, length = pir_length(found.way);
     if (!found.is_out) {
         out->is_out = out->is_shortest = false;
-        out->depth = moved ? out->depth + radius : fmax(deepest, 0);
+        out->depth = moved ? out->depth + radius : pir_greater(deepest, 0);
         return PIR_OK;
     }
     found.is_shortest = out->is_shortest && length <= bound + slack;
-    found.depth = found.is_shortest ? fmin(bound, length) : length;
+    found.depth = found.is_shortest ? pir_lesser(bound, length) : length;
     *out = found;
     return PIR_OK;
 }

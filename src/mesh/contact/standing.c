@@ -28,7 +28,7 @@ static double ball_of(const pir_contact_job *job) {
     for (uint32_t i = 0; i < job->triangle_count && least > 0; i++) {
         const pir_near_triangle *s = &job->triangle[i];
         if (s->counts && !s->near.meets)
-            least = fmin(least, s->near.distance);
+            least = pir_lesser(least, s->near.distance);
     }
     return 0.5 * least;
 }

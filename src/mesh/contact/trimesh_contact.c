@@ -101,7 +101,8 @@ static bool may_have_points(const struct room *room, const pir_near_triangle *s,
     if (!s->counts || (s->one_sided && pir_vec_dot(n, s->front) < -LEVEL) ||
         (room->stuck && !s->near.meets && !s->passed))
         return false;
-    const double high = fmax(pir_vec_dot(n, s->p[0]), fmax(pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])));
+    const double high =
+        pir_greater(pir_vec_dot(n, s->p[0]), pir_greater(pir_vec_dot(n, s->p[1]), pir_vec_dot(n, s->p[2])));
     return view->low - high - view->moved <= room->job.input->margin + LEVEL * room->job.size;
 }
 
@@ -112,7 +113,7 @@ static void set_view(const struct room *room, pir_vec3 normal, struct normal_vie
     ret_view->least = room->stuck ? -HUGE_VAL : -LEVEL * job->size;
     ret_view->low = HUGE_VAL;
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        ret_view->low = fmin(ret_view->low, pir_vec_dot(normal, job->vertex[v]));
+        ret_view->low = pir_lesser(ret_view->low, pir_vec_dot(normal, job->vertex[v]));
     ret_view->low += pir_vec_dot(normal, room->out.t);
     pir_patch_of_body(job, &ret_view->frame, room->out.t, &ret_view->body);
 }
@@ -140,7 +141,7 @@ static bool collect_points(struct room *room, const pir_standing *standing, cons
         if (may_have_points(room, &room->job.triangle[i], view) && !add_points(room, i, view))
             return false;
     for (uint32_t i = 0; i < room->point_count; i++)
-        least = fmin(least, room->point[i].distance);
+        least = pir_lesser(least, room->point[i].distance);
     const pir_contact_feature feature = pir_contact_feature_of(&standing->simplex);
     const bool is_end = view->body.count == 2 && feature.p[0] == feature.p[1];
     const bool is_there = is_end && drop_points_at(room, standing->point);
@@ -166,7 +167,7 @@ static bool choose(struct room *room, uint32_t to, double (*measure)(const struc
     for (uint32_t i = to; i < room->point_count; i++) {
         double size = measure(room, i);
         best = size > most ? i : best;
-        most = fmax(most, size);
+        most = pir_greater(most, size);
     }
     if (best != UINT32_MAX)
         bring(room, best, to);
@@ -193,7 +194,7 @@ static double area_added(const struct room *room, uint32_t i) {
     for (uint32_t k = 0; k < 3; k++) {
         uint32_t next = (k + 1) % 3;
         double out = -side * pir_vec_dot(n, pir_vec_cross(between(room, k, next), between(room, k, i)));
-        most = fmax(most, out);
+        most = pir_greater(most, out);
     }
     return most;
 }
@@ -326,7 +327,7 @@ static void set_deepest(struct room *room, pir_surface_contact_result *result) {
 static void set_way(const struct room *room, pir_surface_contact_result *result) {
     const pir_contact_job *job = &room->job;
     const double length = pir_length(room->out.way);
-    result->distance = -fmax(room->out.depth, 0);
+    result->distance = -pir_greater(room->out.depth, 0);
     if (!(length > 0))
         return;
     result->normal = pir_vec_scale(room->out.way, 1 / length);
@@ -358,7 +359,7 @@ static void set_own_contact(struct room *room, pir_surface_contact_result *resul
     const bool touches = gap <= 2 * pir_contact_step(job); // else P is held off by what it is behind of
     const pir_vec3 move = pir_vec_sub(room->out.way, pir_vec_scale(n, touches ? gap : 0));
     const double along = pir_vec_dot(move, n), length = pir_length(move), level = LEVEL * job->size;
-    pir_standing contact = {.gap = -fmax(along, 0), .normal = n, .point = s->near.point};
+    pir_standing contact = {.gap = -pir_greater(along, 0), .normal = n, .point = s->near.point};
     if (!touches)
         contact.point = pir_vec_add(contact.point, pir_vec_scale(n, gap));
     if (result->state == PIR_BOUNDARY) {

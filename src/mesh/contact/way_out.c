@@ -57,7 +57,7 @@ static void insert(struct exit_ways *ways, struct exit_way way) {
         if (is_near(ways->way[k - 1].n, way.n))
             return;
     if (ways->count == MOST_WAYS)
-        ways->missed = fmin(ways->missed, fmax(ways->way[MOST_WAYS - 1].depth, way.depth));
+        ways->missed = pir_lesser(ways->missed, pir_greater(ways->way[MOST_WAYS - 1].depth, way.depth));
     else
         ways->count++;
     for (uint32_t k = ways->count - 1; k > at; k--)
@@ -70,14 +70,14 @@ static void add_way(void *context, const pir_contact_facet *facet) {
     struct exit_ways *ways = context;
     if (ways->s->one_sided && pir_vec_dot(facet->n, ways->s->front) < BACKWARD)
         return;
-    double depth = fmax(facet->depth, 0);
+    double depth = pir_greater(facet->depth, 0);
     if (facet->kind == PIR_CONTACT_FRONT)
-        ways->front = fmax(ways->front, depth);
+        ways->front = pir_greater(ways->front, depth);
     if (depth < ways->least.depth)
         ways->least = (struct exit_way){facet->n, depth};
     const bool is_full = ways->count == MOST_WAYS;
-    if (is_full && depth >= fmin(ways->missed, ways->way[MOST_WAYS - 1].depth))
-        ways->missed = fmin(ways->missed, depth);
+    if (is_full && depth >= pir_lesser(ways->missed, ways->way[MOST_WAYS - 1].depth))
+        ways->missed = pir_lesser(ways->missed, depth);
     else if (ways->loose || pir_contact_may_touch(ways->job, ways->t, ways->s, facet))
         insert(ways, (struct exit_way){facet->n, depth});
 }
@@ -259,7 +259,7 @@ static bool is_clear_along(const pir_contact_job *job, double least, const pir_n
                            pir_vec3 t) {
     double most = -HUGE_VAL;
     for (int k = 0; k < 3; k++)
-        most = fmax(most, pir_vec_dot(n, pir_vec_sub(s->p[k], t)));
+        most = pir_greater(most, pir_vec_dot(n, pir_vec_sub(s->p[k], t)));
     return least - most > 16 * job->error;
 }
 
@@ -272,7 +272,7 @@ static bool is_clear(pir_contact_job *job, pir_vec3 t, pir_vec3 n, uint32_t *met
     const pir_contact_place place = pir_place_at(t);
     double least = HUGE_VAL;
     for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        least = fmin(least, pir_vec_dot(n, job->vertex[v]));
+        least = pir_lesser(least, pir_vec_dot(n, job->vertex[v]));
     if (*met < job->triangle_count && is_met_at(job, &place, &job->triangle[*met]))
         return false;
     for (uint32_t i = 0; i < job->triangle_count; i++)
@@ -285,7 +285,7 @@ static bool is_clear(pir_contact_job *job, pir_vec3 t, pir_vec3 n, uint32_t *met
 
 static bool is_gathered(const pir_contact_job *job, pir_vec3 t) {
     pir_vec3 way = pir_vec_sub(t, job->input->pose.translation);
-    double most = fmax(fabs(way.x), fmax(fabs(way.y), fabs(way.z)));
+    double most = pir_greater(fabs(way.x), pir_greater(fabs(way.y), fabs(way.z)));
     return most + job->input->margin + job->input->radius <= job->grown;
 }
 
@@ -306,13 +306,13 @@ static bool try_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways, b
         const struct exit_way *way = &ways->way[i];
         const pir_vec3 whole = along(job, t, way, step), to = along(job, t, way, first);
         if (!is_gathered(job, whole)) {
-            ways->missed = fmin(ways->missed, way->depth);
+            ways->missed = pir_lesser(ways->missed, way->depth);
             continue;
         }
         if (!is_clear(job, to, way->n, &met)) {
             // what only touches does not say that the way is none: with other roundings P may pass by
             if (!pir_contact_overlaps(job, to, &job->triangle[met], true))
-                ways->missed = fmin(ways->missed, way->depth);
+                ways->missed = pir_lesser(ways->missed, way->depth);
             continue;
         }
         if (!is_in_front(job, to))
@@ -377,7 +377,7 @@ static void leave_place(pir_contact_job *job, struct step_out *by, pir_way_out *
     struct exit_way way;
     pir_vec3 to;
     // a thin core that leaves one triangle by its side may still have to come up through its neighbour
-    by->far = fmax(longest.depth, job->input->radius > 0 ? by->ways.front : 0);
+    by->far = pir_greater(longest.depth, job->input->radius > 0 ? by->ways.front : 0);
     const bool tight = try_ways(job, out->t, &by->ways, false, &way, &to);
     const double missed = by->ways.missed;
     out->is_out = tight;

@@ -301,5 +301,5 @@ pir_walk_box pir_surface_bounds(pir_surface_ref surface) {
 void pir_surface_reach(pir_surface_ref surface, double ret_reach[3]) {
     const pir_walk_box box = pir_surface_bounds(surface);
     for (int k = 0; k < 3; k++)
-        ret_reach[k] = fmax(fabs(box.low[k]), fabs(box.high[k]));
+        ret_reach[k] = pir_greater(fabs(box.low[k]), fabs(box.high[k]));
 }
