@@ -454,9 +454,15 @@ static size_t told_contacts(const twin_scenes *t, uint32_t i, pir_surface_contac
     return count;
 }
 
-static int by_id(const void *a, const void *b) {
-    const uint64_t x = ((const pir_surface_contact *)a)->id, y = ((const pir_surface_contact *)b)->id;
-    return (x > y) - (x < y);
+/* Whether a contact is one of many: a point that is at the rim of two triangles may be there once or twice, under
+   numbers that follow one another. */
+static bool is_among(const pir_surface_contact *contact, const pir_surface_contact *all, size_t count, double size) {
+    for (size_t k = 0; k < count; k++)
+        if (fabs(contact->distance - all[k].distance) <= 1e-12 * size && contact->id - all[k].id + 2 <= 4 &&
+            test_length(test_add(contact->normal, all[k].normal, -1)) <= 1e-9 &&
+            test_length(test_add(contact->point_p, all[k].point_p, -1)) <= 1e-9 * size)
+            return true;
+    return false;
 }
 
 /* The scene, which knows the triangles that are near, tells what a search of the whole surface finds. */
@@ -477,17 +483,14 @@ static size_t compare_with_search(const twin_scenes *t, pir_workspace *workspace
         return 0;
     assert_int_equal(pir_surface_contacts(t->shape[i], workspace, &input, MOST, found, &result), PIR_OK);
     const size_t count = told_contacts(t, i, told);
-    expect(count == result.contacts, "case %llu, body %u: %zu contacts, %zu by a search", (unsigned long long)number, i,
-           count, result.contacts);
-    qsort(told, count, sizeof *told, by_id);
-    qsort(found, count, sizeof *found, by_id);
-    for (size_t k = 0; k < count; k++) {
-        const pir_vec3 own = test_add(found[k].point_p, found[k].normal, ground.radius);
-        expect(told[k].id == found[k].id && fabs(told[k].distance - found[k].distance) <= 1e-12 * t->size &&
-                   test_length(test_add(told[k].normal, found[k].normal, -1)) <= 1e-9 &&
-                   test_length(test_add(told[k].point_p, own, -1)) <= 1e-9 * t->size,
-               "case %llu, body %u, contact %zu", (unsigned long long)number, i, k);
-    }
+    for (size_t k = 0; k < result.contacts; k++)
+        found[k].point_p = test_add(found[k].point_p, found[k].normal, ground.radius);
+    for (size_t k = 0; k < count; k++)
+        expect(is_among(&told[k], found, result.contacts, t->size), "case %llu, body %u: contact %zu is not found",
+               (unsigned long long)number, i, k);
+    for (size_t k = 0; k < result.contacts; k++)
+        expect(is_among(&found[k], told, count, t->size), "case %llu, body %u: contact %zu is not told",
+               (unsigned long long)number, i, k);
     return count;
 }
 
