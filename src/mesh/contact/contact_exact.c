@@ -20,12 +20,12 @@
 
 static void span_of(double x, int *top, int *low) {
     int exponent;
-    if (x == 0)
+    const uint64_t mantissa = pir_double_split(x, &exponent);
+    if (mantissa == 0)
         return;
-    (void)frexp(x, &exponent);
-    *top = exponent > *top ? exponent : *top;
-    exponent = pir_double_low_bit(x);
-    *low = exponent < *low ? exponent : *low;
+    const int high = exponent + 64 - __builtin_clzll(mantissa), bit = exponent + __builtin_ctzll(mantissa);
+    *top = high > *top ? high : *top;
+    *low = bit < *low ? bit : *low;
 }
 
 /* Bits of an entry of M(q), and of |q|². */

@@ -47,9 +47,13 @@ static bool is_of_plane(const pir_near_triangle *s, pir_vec3 normal) {
 
 /* A direction by its coordinates in the frame of a surface. */
 static uint64_t direction_name(const pir_contact_job *job, uint32_t surface, pir_vec3 normal) {
-    pir_rotation rotation;
-    (void)pir_rotation_set(&rotation, job->input->surfaces[surface].pose.rotation); // checked before
-    const pir_vec3 n = pir_vec_scale(pir_mat_apply_transposed(&rotation.r, normal), 1 / DIRECTION_UNIT);
+    const pir_quat q = job->input->surfaces[surface].pose.rotation;
+    if (!pir_quat_is_identity(q)) {
+        pir_rotation rotation;
+        (void)pir_rotation_set(&rotation, q); // checked before
+        normal = pir_mat_apply_transposed(&rotation.r, normal);
+    }
+    const pir_vec3 n = pir_vec_scale(normal, 1 / DIRECTION_UNIT);
     uint64_t name = mix(OF_PLANE, (uint64_t)(int64_t)rint(n.x));
     name = mix(name, (uint64_t)(int64_t)rint(n.y));
     return mix(name, (uint64_t)(int64_t)rint(n.z));

@@ -58,11 +58,6 @@ static pir_status check_input(const pir_surface_contact_input *input) {
     return PIR_OK;
 }
 
-static void widen(double x, double *low, double *high) {
-    *low = x < *low ? x : *low;
-    *high = x > *high ? x : *high;
-}
-
 static bool reserve(const pir_contact_job *job, pir_vec3 **block, uint32_t *room, uint32_t count) {
     if (count <= *room)
         return true;
@@ -80,17 +75,18 @@ static pir_status turn_vertices(pir_contact_job *job) {
         !reserve(job, &job->turned, &job->turned_room, job->p->facet_count + job->p->edge_count))
         return PIR_ERR_MEMORY;
     job->has_turned = false;
-    double most = 0;
-    job->low = (pir_vec3){HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    job->high = (pir_vec3){-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    const pir_mat3 r = job->rotation.r;
+    pir_vec3 low = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (uint32_t v = 0; v < count; v++) {
-        pir_vec3 x = pir_mat_apply(&job->rotation.r, job->p->vertex[v]);
+        const pir_vec3 x = pir_mat_apply(&r, job->p->vertex[v]);
         job->vertex[v] = x;
-        most = pir_greater(most, pir_greater(fabs(x.x), pir_greater(fabs(x.y), fabs(x.z))));
-        widen(x.x, &job->low.x, &job->high.x);
-        widen(x.y, &job->low.y, &job->high.y);
-        widen(x.z, &job->low.z, &job->high.z);
+        low = (pir_vec3){pir_lesser(x.x, low.x), pir_lesser(x.y, low.y), pir_lesser(x.z, low.z)};
+        high = (pir_vec3){pir_greater(x.x, high.x), pir_greater(x.y, high.y), pir_greater(x.z, high.z)};
     }
+    job->low = low;
+    job->high = high;
+    const double most =
+        pir_greater(pir_greater(pir_greater(-low.x, high.x), pir_greater(-low.y, high.y)), pir_greater(-low.z, high.z));
     job->radius = most * 1.7320508075688774;
     return most <= PIR_MESH_FARTHEST ? PIR_OK : PIR_ERR_LIMIT;
 }
@@ -235,7 +231,6 @@ static void set_list(struct gathering *g, const pir_contact_list *list) {
 static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) {
     const pir_posed_surface *posed = &job->input->surfaces[surface];
     pir_rotation rotation;
-    (void)pir_rotation_set(&rotation, posed->pose.rotation); // checked before
     struct gathering g = {.job = job,
                           .surface = surface,
                           .r = &rotation.r,
@@ -243,6 +238,8 @@ static void gather_surface(pir_contact_job *job, uint32_t surface, double grow) 
                           .moved = !turns_nothing(&posed->pose),
                           .one_sided =
                               posed->surface.mesh ? !posed->surface.mesh->two_sided : !posed->surface.field->two_sided};
+    if (g.moved)
+        (void)pir_rotation_set(&rotation, posed->pose.rotation); // checked before
     if (job->list)
         set_list(&g, job->list);
     if (g.list && g.listed < 2) {

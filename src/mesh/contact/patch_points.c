@@ -46,7 +46,7 @@ static uint32_t facing_facet(const pir_contact_job *job, pir_vec3 n) {
     return best;
 }
 
-void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame, pir_vec3 t,
+void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame, pir_vec3 t, uint32_t lowest,
                        pir_contact_patch *ret_patch) {
     const pir_polytope *p = job->p;
     uint32_t facet = facing_facet(job, frame->n);
@@ -58,7 +58,7 @@ void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame,
             put(ret_patch, frame, pir_vec_add(job->vertex[p->origin[p->loop[i - 1]]], t), p->origin[p->loop[i - 1]]);
         return;
     }
-    uint32_t v = pir_contact_lowest(job, frame->n), other = v;
+    uint32_t v = lowest, other = v;
     pir_vec3 own = pir_mat_apply_transposed(&job->rotation.r, frame->n);
     double least = TILT_SINE;
     for (uint32_t h = p->ring_start[v]; h < p->ring_start[v + 1]; h++) {

@@ -36,8 +36,9 @@ typedef struct pir_patch_frame {
 
 pir_patch_frame pir_patch_frame_of(pir_vec3 n);
 
-/* The part of P at a translation that faces against the normal, and of a triangle along it. */
-void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame, pir_vec3 t,
+/* The part of P at a translation that faces against the normal, along which its vertex `lowest` is the first of the
+ * lowest, and of a triangle along it. */
+void pir_patch_of_body(const pir_contact_job *job, const pir_patch_frame *frame, pir_vec3 t, uint32_t lowest,
                        pir_contact_patch *ret_patch);
 void pir_patch_of_triangle(const pir_patch_frame *frame, const pir_near_triangle *s, pir_contact_patch *ret_patch);
 

@@ -111,11 +111,9 @@ static void set_view(const struct room *room, pir_vec3 normal, struct normal_vie
     ret_view->frame = pir_patch_frame_of(normal);
     ret_view->moved = pir_vec_dot(normal, room->out.way) + job->input->radius;
     ret_view->least = room->stuck ? -HUGE_VAL : -LEVEL * job->size;
-    ret_view->low = HUGE_VAL;
-    for (uint32_t v = 0; v < job->p->vertex_count; v++)
-        ret_view->low = pir_lesser(ret_view->low, pir_vec_dot(normal, job->vertex[v]));
-    ret_view->low += pir_vec_dot(normal, room->out.t);
-    pir_patch_of_body(job, &ret_view->frame, room->out.t, &ret_view->body);
+    const uint32_t lowest = pir_contact_lowest(job, normal);
+    ret_view->low = pir_vec_dot(normal, job->vertex[lowest]) + pir_vec_dot(normal, room->out.t);
+    pir_patch_of_body(job, &ret_view->frame, room->out.t, lowest, &ret_view->body);
 }
 
 /* Takes out the points that are at a place; whether there are any. */

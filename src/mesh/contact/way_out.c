@@ -191,7 +191,9 @@ bool pir_contact_look(pir_contact_job *job, pir_vec3 t) {
 }
 
 bool pir_contact_look_first(pir_contact_job *job) {
-    return look_within(job, job->input->pose.translation, job->input->margin + job->input->radius);
+    // those of a list are near
+    return look_within(job, job->input->pose.translation,
+                       job->list ? HUGE_VAL : job->input->margin + job->input->radius);
 }
 
 /* All ways from a place that was looked at, and of each triangle's least one the longest. */
