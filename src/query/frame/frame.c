@@ -49,29 +49,46 @@ static pir_dd3 dd_turn(pir_quat q, pir_quat rest, bool back, const pir_dd3 *v) {
     return turned;
 }
 
-/* a · num/den as m · 2^*ret_exponent. */
-static double scaled(const pir_int *a, const pir_scale *scale, int *ret_exponent) {
-    int e, num, den;
-    double m = pir_int_to_double(a, &e);
-    double n = pir_int_to_double(&scale->num, &num), d = pir_int_to_double(&scale->den, &den);
-    *ret_exponent = e + num - den;
-    return m * (n / d);
+/* The scale of a polytope's integers as ratio · 2^exponent. */
+struct unit {
+    double ratio;
+    int exponent;
+};
+
+static struct unit unit_of(const pir_polytope *p) {
+    int num, den;
+    const double n = pir_int_to_double(&p->scale.num, &num), d = pir_int_to_double(&p->scale.den, &den);
+    return (struct unit){n / d, num - den};
+}
+
+/* a − b as m · 2^*ret_exponent, m in ±[0.5, 1) or 0; `room` has limbs for either and one more. */
+static double difference_of(const pir_int *a, const pir_int *b, mp_limb_t *room, uint32_t limbs, int *ret_exponent) {
+#if GMP_NUMB_BITS == 64
+    int64_t x, y;
+    if (pir_int_get_short(a, &x) && pir_int_get_short(b, &y))
+        return frexp((double)(x - y), ret_exponent);
+#endif
+    pir_int difference = {room, 0, limbs};
+    pir_int_sub(&difference, a, b);
+    return pir_int_to_double(&difference, ret_exponent);
 }
 
 /* Component k of vertex v minus vertex 0, as m · 2^*ret_exponent. `room` has the limbs of a vertex and one more. */
-static double from_first(const pir_polytope *p, uint32_t v, int k, mp_limb_t *room, int *ret_exponent) {
-    pir_int3 a = pir_vertex_exact(p, v), o = pir_vertex_exact(p, 0);
-    pir_int difference = {room, 0, p->exact_vertex.stride + 1};
-    pir_int_sub(&difference, &a.c[k], &o.c[k]);
-    return scaled(&difference, &p->scale, ret_exponent);
+static double from_first(const pir_polytope *p, const struct unit *unit, uint32_t v, int k, mp_limb_t *room,
+                         int *ret_exponent) {
+    const pir_int3 a = pir_vertex_exact(p, v), o = pir_vertex_exact(p, 0);
+    const double m = difference_of(&a.c[k], &o.c[k], room, p->exact_vertex.stride + 1, ret_exponent);
+    *ret_exponent += unit->exponent;
+    return m * unit->ratio;
 }
 
 int pir_body_exponent(const pir_polytope *p, mp_limb_t *room) {
+    const struct unit unit = unit_of(p);
     int top = INT_MIN;
     for (uint32_t v = 1; v < p->vertex_count; v++)
         for (int k = 0; k < 3; k++) {
             int e;
-            if (from_first(p, v, k, room, &e) != 0 && e > top)
+            if (from_first(p, &unit, v, k, room, &e) != 0 && e > top)
                 top = e;
         }
     return top;
@@ -114,16 +131,17 @@ static double remainder_of(const pir_polytope *p, const pir_int *a, double neare
  */
 static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     const pir_polytope *p = body->polytope;
+    const struct unit unit = unit_of(p);
     pir_vec3 *vertices = body->vertex;
     double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         double c[3];
         for (int k = 0; k < 3; k++) {
             int e;
-            c[k] = from_first(p, v, k, room, &e);
+            c[k] = from_first(p, &unit, v, k, room, &e);
             c[k] = c[k] != 0 ? ldexp(c[k], e - exponent) : 0;
-            low[k] = fmin(low[k], c[k]);
-            high[k] = fmax(high[k], c[k]);
+            low[k] = pir_lesser(low[k], c[k]);
+            high[k] = pir_greater(high[k], c[k]);
         }
         vertices[v] = (pir_vec3){c[0], c[1], c[2]};
     }
@@ -131,7 +149,7 @@ static bool place_body(pir_body *body, int exponent, mp_limb_t *room) {
     double square = 0;
     for (uint32_t v = 0; v < p->vertex_count; v++) {
         vertices[v] = pir_vec_sub(vertices[v], middle);
-        square = fmax(square, pir_vec_dot(vertices[v], vertices[v]));
+        square = pir_greater(square, pir_vec_dot(vertices[v], vertices[v]));
     }
     // the root and the square round by a few 2^-53
     body->size = sqrt(square) * (1 + 0x1p-48);
@@ -153,7 +171,7 @@ static void set_offsets(pir_body *body) {
     double size = body->size, inner = p->dimension == 3 ? size : 0;
     for (uint32_t f = 0; f < p->facet_count; f++) {
         body->offset[f] = pir_vec_dot(p->normal[f], body->vertex[p->origin[p->loop[p->loop_start[f]]]]);
-        inner = fmin(inner, fmax(0, body->offset[f] - 0x1p-46 * size));
+        inner = pir_lesser(inner, pir_greater(0, body->offset[f] - 0x1p-46 * size));
     }
     // what rounding may add is far below 2^-40 of the size
     body->swing = sqrt(size * size - inner * inner) * (1 + 0x1p-40) + 0x1p-40 * size;
@@ -164,7 +182,8 @@ static void set_offsets(pir_body *body) {
  * from it, that squares would lose digits. Then it comes from their coordinates.
  */
 static int exponent_of_points(pir_vec3 p, pir_vec3 q) {
-    double most = fmax(fmax(fmax(fabs(p.x), fabs(p.y)), fabs(p.z)), fmax(fmax(fabs(q.x), fabs(q.y)), fabs(q.z)));
+    double most = pir_greater(pir_greater(pir_greater(fabs(p.x), fabs(p.y)), fabs(p.z)),
+                              pir_greater(pir_greater(fabs(q.x), fabs(q.y)), fabs(q.z)));
     int e;
     frexp(most, &e);
     // beyond 2^300 a square of squares would leave the range of doubles
