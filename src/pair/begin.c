@@ -37,16 +37,20 @@ __attribute__((noinline)) static pir_status set_q(pir_workspace *workspace, cons
     return PIR_OK;
 }
 
+/* A quaternion with a component of 1 or more is halved, as that of ground that stands as it was made. */
+static inline pir_quat halved(const pir_quat *q) {
+    const double by = fabs(q->x) < 1 && fabs(q->y) < 1 && fabs(q->z) < 1 && fabs(q->w) < 1 ? 1 : 0.5;
+    return (pir_quat){by * q->x, by * q->y, by * q->z, by * q->w};
+}
+
 /*
- * Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled, but for a P that stands
- * as it was made, as ground does.
+ * Sets P's rotation as Q, which is turned, sees it. False where a quaternion has to be scaled by more than a half.
  */
 static inline bool set_relative_rotation(pir_workspace *workspace, const pir_quat *q, const pir_quat *p) {
     pir_frame *frame = &workspace->frame;
     pir_quat_product product;
-    const pir_quat half = {p->x, p->y, p->z, 0.5 * p->w};
-    const bool stands = pir_quat_is_identity(*p) && p->w == 1;
-    if (!workspace->relative->find(q, stands ? &half : p, &product, &frame->unit, &frame->r))
+    const pir_quat near_q = halved(q), near_p = halved(p);
+    if (!workspace->relative->find(&near_q, &near_p, &product, &frame->unit, &frame->r))
         return false;
     pir_rotation_set_factors(&workspace->rotation, &product, *q, *p);
     pir_frame_set_given(frame, product.whole, product.rest);

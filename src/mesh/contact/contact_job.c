@@ -19,17 +19,22 @@
 
 /* --- P --- */
 
+/* *rotation, if it is asked for, is the pose's. */
 static pir_status check_pose(const pir_pose *pose, pir_rotation *rotation) {
+    const pir_quat q = pose->rotation;
+    const pir_vec3 t = pose->translation;
+    // ground that is not turned needs no numbers
+    const bool stands = !rotation && pir_quat_is_identity(q) && q.w != 0 && isfinite(q.w);
     pir_rotation taken;
-    pir_status status = pir_rotation_set(&taken, pose->rotation);
-    pir_vec3 t = pose->translation;
+    pir_status status = stands ? PIR_OK : pir_rotation_set(&taken, q);
     if (status != PIR_OK)
         return status;
     if (!pir_vec_is_finite(t))
         return PIR_ERR_NOT_FINITE;
     if (fabs(t.x) > PIR_MESH_FARTHEST || fabs(t.y) > PIR_MESH_FARTHEST || fabs(t.z) > PIR_MESH_FARTHEST)
         return PIR_ERR_LIMIT;
-    *rotation = taken;
+    if (rotation)
+        *rotation = taken;
     return PIR_OK;
 }
 
@@ -48,10 +53,9 @@ static pir_status check_input(const pir_surface_contact_input *input) {
         if (!input->beside[i])
             return PIR_ERR_ARGUMENT;
     for (size_t i = 0; i < input->surface_count; i++) {
-        pir_rotation rotation;
         pir_status status = pir_surface_check(input->surfaces[i].surface);
         if (status == PIR_OK)
-            status = check_pose(&input->surfaces[i].pose, &rotation);
+            status = check_pose(&input->surfaces[i].pose, NULL);
         if (status != PIR_OK)
             return status;
     }

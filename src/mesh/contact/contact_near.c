@@ -322,10 +322,11 @@ static bool is_supported(const pir_contact_job *job, const pir_near_triangle *s,
     int axis = near->axis;
     if (axis < 0 && vertices + corners != ids->count + 1)
         return false;
-    pir_vec3 p = job->vertex[ids->v[0]], q = s->p[ids->w[0]];
-    double bound = own + near->n_error * 2 * job->radius;
-    for (uint32_t v = 0; v < job->p->vertex_count && !(vertices == 3 && is_facet(job, ids->v, near->n)); v++)
-        if (!(pir_vec_dot(near->n, pir_vec_sub(job->vertex[v], p)) > bound) && !is_in(ids->v, ids->count, v) &&
+    const pir_vec3 p = job->vertex[ids->v[0]], q = s->p[ids->w[0]], n = near->n;
+    const double bound = own + near->n_error * 2 * job->radius;
+    const uint32_t looked_at = vertices == 3 && is_facet(job, ids->v, n) ? 0 : job->p->vertex_count;
+    for (uint32_t v = 0; v < looked_at; v++)
+        if (!(pir_vec_dot(n, pir_vec_sub(job->vertex[v], p)) > bound) && !is_in(ids->v, ids->count, v) &&
             !(axis >= 0 && is_level_vertex(job, v, ids->v[0], axis)))
             return false;
     for (uint32_t w = 0; w < 3 && corners < 3; w++) {
