@@ -10,6 +10,8 @@
  */
 #include "mesh/contact/contact_job.h"
 
+#include <string.h>
+
 #include "mesh/contact/beside.h"
 #include "mesh/contact/contact_exact.h"
 #include "mesh/signs/mesh_numbers.h"
@@ -149,11 +151,13 @@ static bool take(struct gathering *g, const pir_met_triangle *met) {
         return false;
     }
     pir_near_triangle *s = &job->triangle[job->triangle_count++];
-    *s = (pir_near_triangle){.local = met->tri,
-                             .surface = g->surface,
-                             .number = met->number,
-                             .id = {met->id[0], met->id[1], met->id[2]},
-                             .one_sided = g->one_sided};
+    // `near` is written where the triangle is looked at
+    s->local = met->tri;
+    s->surface = g->surface;
+    s->number = met->number;
+    memcpy(s->id, met->id, sizeof s->id);
+    s->one_sided = g->one_sided;
+    s->counts = s->passed = s->near.meets = false;
     for (int i = 0; i < 3; i++)
         s->p[i] = g->moved ? pir_vec_add(pir_mat_apply(g->r, met->tri.p[i]), g->t) : met->tri.p[i];
     s->front = unit_or_zero(pir_vec_cross(pir_vec_sub(s->p[1], s->p[0]), pir_vec_sub(s->p[2], s->p[0])));

@@ -137,7 +137,7 @@ static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_ne
     const pir_scene_piece *piece = &scene->bodies.piece[touched->item[0].key.bodies];
     const pir_scene_body *body = &scene->bodies.body[piece->body];
     pir_surface_contact_input input = pir_surface_contact_input_default();
-    pir_surface_contact_result result = {.contacts = 0};
+    pir_surface_contact_result result; // set by a call that succeeds
     uint32_t room = 0, beside;
     pir_contact_list list;
     const bool listed = list_triangles(touched, &list);
@@ -152,16 +152,18 @@ static pir_status ask(struct touched *touched, uint32_t *ret_count, bool *ret_ne
     input.beside_count = beside;
     pir_status status = PIR_OK;
     // as many as there is room for may not be all
-    while (status == PIR_OK && result.contacts == room) {
+    for (result.contacts = 0; status == PIR_OK && result.contacts == room;) {
         room = room > 0 ? 2 * room : CONTACTS;
         if (!PIR_GROW(&scene->allocator, worker->met, worker->met_capacity, room))
             return PIR_ERR_MEMORY;
         status = pir_surface_contacts_among(piece->extent.polytope, worker->workspace, &input, listed ? &list : NULL,
                                             room, worker->met, &result);
     }
+    if (status != PIR_OK)
+        return status;
     *ret_count = (uint32_t)result.contacts;
     *ret_near = result.counts.near > 0;
-    return status;
+    return PIR_OK;
 }
 
 /* Whether two contacts stand in one event: those of one normal, with surfaces or with one and the same piece. */
