@@ -37,7 +37,7 @@ typedef struct pir_contact_near {
     int axis;        /* of the world, that n has exactly; −1: none is known */
 } pir_contact_near;
 
-/* The triangles that alone are within the margin of P, which meets none: each its surface << 32 | its number, rising. */
+/* The triangles that alone are within the margin of P, which meets none: surface << 32 | number of each, rising. */
 typedef struct pir_contact_list {
     const uint64_t *triangle;
     size_t count;
