@@ -312,8 +312,8 @@ static bool try_ways(pir_contact_job *job, pir_vec3 t, struct exit_ways *ways, b
             continue;
         }
         if (!is_clear(job, to, way->n, &met)) {
-            // what only touches does not say that the way is none: with other roundings P may pass by
-            if (!pir_contact_overlaps(job, to, &job->triangle[met], true))
+            // what touches, or overlaps by a rounding, does not say that the way is none: with others P may pass by
+            if (!pir_contact_overlaps(job, to, &job->triangle[met], false))
                 ways->missed = pir_lesser(ways->missed, way->depth);
             continue;
         }
