@@ -139,6 +139,9 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
     return target_check(args, "-o", NULL);
 }
 
+/* Options that only plans by any motion have. */
+static const char *const of_motions[] = {"--boxes", "--threads", "--resume"};
+
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
     if (!target_check(args, "--page", ".html") || !targets_differ(args, "-o", "--page"))
@@ -150,6 +153,11 @@ static bool read_options(struct plan_run *run) {
         return false;
     run->options = pir_path_plan_options_default();
     run->options.parts = (uint32_t)parts;
+    for (size_t i = 0; i < sizeof of_motions / sizeof *of_motions; i++)
+        if (args_has(args, of_motions[i]) && (args_has(args, "--axis") || args_has(args, "--translate-only"))) {
+            complain("plan: %s goes with neither --translate-only nor --axis", of_motions[i]);
+            return false;
+        }
     if (args_has(args, "--axis"))
         return read_turns(run, bounds);
     if (args_has(args, "--arcs")) {
@@ -158,10 +166,6 @@ static bool read_options(struct plan_run *run) {
     }
     if (!args_has(args, "--translate-only"))
         return read_motions(run, bounds);
-    if (args_has(args, "--boxes") || args_has(args, "--threads")) {
-        complain("plan: --boxes and --threads go with neither --translate-only nor --axis");
-        return false;
-    }
     if (!read_place(args, "--from", &run->input.rotation, &run->input.from) ||
         !read_place(args, "--to", &end, &run->input.to))
         return false;
@@ -518,6 +522,8 @@ static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_
     char time[TEXT_NUMBER];
     text_time(run->seconds * 1e9, time);
     say("%s, by any motion, for closed bodies\n", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN && run->how.journal)
+        say("  %-10s all boxes; --resume goes on from them with more --boxes, --budget or --memory\n", "kept");
     if (info->answer == PIR_TURN_PLAN_PATH)
         say("  %-10s %" PRIu32 ", each a translation or a turn away; -o or --json tells them\n", "poses", info->steps);
     say("  %-10s %" PRIu32 " of rotations, %" PRIu32 " more divided, %" PRIu64 " parts of translations\n", "boxes",
@@ -557,9 +563,25 @@ static int tell_motions(struct plan_run *run, const pir_rigid_plan *plan, struct
     return EXIT_DONE;
 }
 
+/* The journal beside a file, which is to be freed; NULL where nothing is kept, as of a stream. */
+static char *journal_of(const struct output_file *file) {
+    const size_t size = file->target ? strlen(file->target) + sizeof ".part" : 0;
+    char *path = size > 0 ? malloc(size) : NULL;
+    if (path)
+        snprintf(path, size, "%s.part", file->target);
+    return path;
+}
+
 /* Plans with neither --axis nor --translate-only. */
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
+    char *journal = journal_of(file);
+    if (args_has(run->args, "--resume") && !journal) {
+        complain("plan: --resume needs -o FILE, beside which FILE.part is");
+        return EXIT_BAD_INPUT;
+    }
+    run->how.journal = journal;
+    run->how.resume = args_has(run->args, "--resume");
     run->how.report = &run->report;
     run->how.proof = proof_file(run, file);
     run->motions.robot = run->input.robot;
@@ -569,12 +591,13 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     const int64_t start = clock_now();
     const pir_status status = pir_rigid_plan_create(&run->motions, &run->how, &plan);
     run->seconds = (double)(clock_now() - start) / 1e9;
-    if (status != PIR_OK) {
+    int result = EXIT_BAD_INPUT;
+    if (status == PIR_OK)
+        result = tell_motions(run, plan, file);
+    else
         complain_status("plan", status, &run->report);
-        return EXIT_BAD_INPUT;
-    }
-    const int result = tell_motions(run, plan, file);
     pir_rigid_plan_destroy(plan);
+    free(journal);
     return result;
 }
 

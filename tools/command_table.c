@@ -106,6 +106,8 @@ static const struct option plan_options[] = {
     {"--arcs", "N", "with --axis: divide the full turn into N arcs at most, 8, 16, ... 65536 (1024)"},
     {"--boxes", "N", "by any motion: divide all rotations into N boxes at most (65536)"},
     {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
+    {"--resume", NULL,
+     "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer"},
     {"--bounds", "x,y,z,x,y,z", "keep translations between these least and greatest ones (none)"},
     {"--open", NULL, "with --translate-only: bodies may touch, so passages count that the robot fits exactly"},
     {"--budget", "N", "fail, or with --axis say unknown, where more than N parts of space are needed"},

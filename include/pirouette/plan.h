@@ -244,13 +244,20 @@ typedef struct pir_rigid_plan_options {
     uint32_t boxes;     /**< the most boxes that all rotations may be divided into, at least 32 */
     uint32_t parts;     /**< the most parts that one box of translations may be divided into */
     uint32_t threads;   /**< that the work is shared among, the caller's own included; the answer is the same */
-    uint32_t reserved;  /**< 0 */
+    uint32_t resume;    /**< 1: what an earlier call kept in the journal is taken over; 0: it begins anew */
+    /**
+     * NULL, or the path of a file that keeps what is made of each box, beside `proof`, which is not NULL then. A call
+     * for the same question goes on with it, whatever ended the first one, to the same answer and proof; boxes, parts
+     * and memory may be others. The file is removed where the answer is not unknown. What it holds is not believed: a
+     * proof of no path makes each box again, and a path is proven anew.
+     */
+    const char *journal;
 } pir_rigid_plan_options;
 
-/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread. O(1). */
+/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal. O(1). */
 static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
     const pir_rigid_plan_options options = {
-        sizeof(pir_rigid_plan_options), pir_solid_options_default().memory, NULL, NULL, 1u << 16, 1u << 22, 1, 0};
+        sizeof(pir_rigid_plan_options), pir_solid_options_default().memory, NULL, NULL, 1u << 16, 1u << 22, 1, 0, NULL};
     return options;
 }
 
@@ -291,7 +298,8 @@ typedef struct pir_rigid_plan_info {
  *
  * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a pose out of bounds or blocked), PIR_ERR_NOT_FINITE,
  * PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid),
- * PIR_ERR_FILE (the proof), PIR_ERR_MEMORY.
+ * PIR_ERR_FILE (the proof, or the journal, which another process may be writing to), PIR_ERR_FORMAT (a journal of
+ * another question, or one whose boxes are not what is made again), PIR_ERR_MEMORY.
  *
  * Source: cells of translations over cells of rotations, after Brooks and Lozano-Pérez 1985; boxes of the charts of
  * unit quaternions, and turned vectors as means of polar forms, are this library's own.

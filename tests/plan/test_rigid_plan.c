@@ -269,6 +269,15 @@ static void test_bad(void **state) {
     assert_int_equal(status_of(&in, &options), PIR_ERR_EMPTY);
     options.boxes = 31;
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.boxes = 32;
+    options.resume = 2;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.resume = 0;
+    options.journal = "none/journal"; // without a proof, and in no folder
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.proof = stdout;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_FILE);
+    assert_non_null(strstr(report.text, "journal: cannot write: No such file"));
     assert_int_equal(status_of(NULL, NULL), PIR_ERR_ARGUMENT);
     release_gate(&g);
 }

@@ -114,6 +114,73 @@ size_t pir_box_parts_size(const pir_box_parts *parts) {
     return parts->points * sizeof *parts->x + parts->cells * sizeof *parts->cell;
 }
 
+/* --- bytes --- */
+
+/* Parts begin with this, cells follow, then their points. */
+struct packed_parts {
+    double room;
+    uint32_t cells, points, parts, nodes;
+};
+
+struct packed_cell {
+    double low[3], high[3];
+    uint32_t points, part;
+};
+
+bool pir_box_parts_pack(const pir_box_parts *parts, pir_bytes *bytes) {
+    const struct packed_parts all = {parts->room, parts->cells, parts->points, parts->parts, parts->nodes};
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    const size_t of_points = parts->points * sizeof *parts->x;
+    if (!pir_bytes_reserve(bytes, &a, sizeof all + parts->cells * sizeof(struct packed_cell) + of_points))
+        return false;
+    memcpy(bytes->data + bytes->used, &all, sizeof all);
+    bytes->used += sizeof all;
+    for (uint32_t i = 0; i < parts->cells; i++) {
+        const pir_box_cell *cell = &parts->cell[i];
+        struct packed_cell packed = {.points = cell->points, .part = cell->part};
+        memcpy(packed.low, cell->low, sizeof packed.low);
+        memcpy(packed.high, cell->high, sizeof packed.high);
+        memcpy(bytes->data + bytes->used, &packed, sizeof packed);
+        bytes->used += sizeof packed;
+    }
+    if (of_points > 0)
+        memcpy(bytes->data + bytes->used, parts->x, of_points);
+    bytes->used += of_points;
+    return true;
+}
+
+bool pir_box_parts_unpack(const pir_bytes *bytes, pir_box_parts *parts) {
+    struct packed_parts all;
+    *parts = (pir_box_parts){0};
+    if (bytes->used < sizeof all)
+        return false;
+    memcpy(&all, bytes->data, sizeof all);
+    const size_t of_cells = all.cells * sizeof(struct packed_cell), of_points = all.points * sizeof *parts->x;
+    if (bytes->used != sizeof all + of_cells + of_points || all.parts > all.cells)
+        return false;
+    parts->x = calloc(all.points > 0 ? all.points : 1, sizeof *parts->x);
+    parts->cell = calloc(all.cells > 0 ? all.cells : 1, sizeof *parts->cell);
+    bool good = parts->x && parts->cell;
+    const uint8_t *at = bytes->data + sizeof all;
+    for (uint32_t i = 0; i < all.cells && good; i++, at += sizeof(struct packed_cell)) {
+        struct packed_cell packed;
+        pir_box_cell *cell = &parts->cell[i];
+        memcpy(&packed, at, sizeof packed);
+        good = packed.points <= all.points - parts->points && packed.part < all.parts;
+        *cell = (pir_box_cell){.first = parts->points, .points = packed.points, .part = packed.part};
+        memcpy(cell->low, packed.low, sizeof cell->low);
+        memcpy(cell->high, packed.high, sizeof cell->high);
+        parts->points += good ? packed.points : 0;
+    }
+    if (good && of_points > 0)
+        memcpy(parts->x, at, of_points);
+    parts->room = all.room;
+    parts->cells = all.cells;
+    parts->parts = all.parts;
+    parts->nodes = all.nodes;
+    return good && parts->points == all.points;
+}
+
 static const double (*points_of(const pir_box_parts *parts, const pir_box_cell *cell))[3] {
     return (const double(*)[3])(parts->x + cell->first);
 }

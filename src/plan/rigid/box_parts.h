@@ -9,6 +9,7 @@
 #ifndef PIR_PLAN_RIGID_BOX_PARTS_H
 #define PIR_PLAN_RIGID_BOX_PARTS_H
 
+#include "base/byte_block.h"
 #include "plan/join.h"
 
 /* The question. Rotations and bounds are borrowed for as long as the plan is made. */
@@ -68,6 +69,12 @@ void pir_box_parts_finish(pir_box_parts *parts);
 
 /* The bytes that parts take. */
 size_t pir_box_parts_size(const pir_box_parts *parts);
+
+/* Appends parts as bytes, the same for the same parts; false when out of memory. */
+bool pir_box_parts_pack(const pir_box_parts *parts, pir_bytes *bytes);
+
+/* Makes parts of bytes; false where these are none, or when out of memory. To be finished also then. */
+bool pir_box_parts_unpack(const pir_bytes *bytes, pir_box_parts *ret_parts);
 
 /* Whether two cells may share a point: false is proven. */
 bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,

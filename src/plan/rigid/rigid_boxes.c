@@ -101,9 +101,41 @@ void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
 
 /* --- parts --- */
 
-static void make_leaf(void *data, uint32_t index) {
-    pir_rigid_job *job = data;
-    pir_rigid_leaf *leaf = &job->leaf[job->first_new + index];
+/* The blocks of a box. */
+enum box_block { INNER_BLOCK, MIDDLE_BLOCK };
+
+static uint64_t block_number(pir_rotation_box box, enum box_block kind) {
+    uint64_t number = (uint64_t)kind << 2 | box.chart;
+    number = number << 5 | box.level;
+    for (int k = 0; k < 3; k++)
+        number = number << PIR_ROTATION_LEVELS | box.at[k];
+    return number;
+}
+
+static pir_rigid_leaf *new_leaf(void *data, uint32_t index) {
+    const pir_rigid_job *job = data;
+    return &job->leaf[job->first_new + index];
+}
+
+static uint64_t leaf_number(void *data, uint32_t index) {
+    return block_number(new_leaf(data, index)->box, INNER_BLOCK);
+}
+
+static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
+    return pir_box_parts_pack(&new_leaf(data, index)->inner, block);
+}
+
+static bool take_leaf(void *data, uint32_t index, const pir_bytes *block) {
+    pir_box_parts *inner = &new_leaf(data, index)->inner;
+    const bool good = pir_box_parts_unpack(block, inner);
+    if (!good)
+        pir_box_parts_finish(inner);
+    return good;
+}
+
+static bool make_leaf(void *data, uint32_t index) {
+    const pir_rigid_job *job = data;
+    pir_rigid_leaf *leaf = new_leaf(data, index);
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_plan_pieces sums;
     pir_box_division division;
@@ -112,11 +144,33 @@ static void make_leaf(void *data, uint32_t index) {
         leaf->status = pir_box_parts_keep(&division, &leaf->inner);
     pir_box_division_finish(&division);
     pir_plan_pieces_over_free(&sums);
+    return leaf->status == PIR_OK;
 }
 
-static void fill_leaf(void *data, uint32_t index) {
-    pir_rigid_job *job = data;
-    pir_rigid_leaf *leaf = &job->leaf[job->list[index]];
+static pir_rigid_leaf *listed_leaf(void *data, uint32_t index) {
+    const pir_rigid_job *job = data;
+    return &job->leaf[job->list[index]];
+}
+
+static uint64_t middle_number(void *data, uint32_t index) {
+    return block_number(listed_leaf(data, index)->box, MIDDLE_BLOCK);
+}
+
+static bool pack_middle(void *data, uint32_t index, pir_bytes *block) {
+    return pir_box_parts_pack(&listed_leaf(data, index)->middle, block);
+}
+
+static bool take_middle(void *data, uint32_t index, const pir_bytes *block) {
+    pir_rigid_leaf *leaf = listed_leaf(data, index);
+    leaf->is_full = pir_box_parts_unpack(block, &leaf->middle);
+    if (!leaf->is_full)
+        pir_box_parts_finish(&leaf->middle);
+    return leaf->is_full;
+}
+
+static bool fill_leaf(void *data, uint32_t index) {
+    const pir_rigid_job *job = data;
+    pir_rigid_leaf *leaf = listed_leaf(data, index);
     const pir_plan_turns middle = {{pir_rotation_box_middle(leaf->box)}, 1};
     pir_plan_pieces outer;
     leaf->status = pir_plan_pieces_over(job->question->robot, &middle, true, &outer);
@@ -132,6 +186,7 @@ static void fill_leaf(void *data, uint32_t index) {
     // a robot that is too thin for outer pieces has no hubs
     if (leaf->status == PIR_ERR_LIMIT)
         leaf->status = PIR_OK;
+    return leaf->is_full;
 }
 
 /* --- links --- */
@@ -184,27 +239,26 @@ static void count_parts(pir_rigid_job *job, const pir_box_parts *parts) {
         job->status = PIR_ERR_LIMIT;
 }
 
-static void share(pir_rigid_job *job, void (*task)(void *data, uint32_t index), uint32_t count) {
-    job->tasks.start(job->tasks.context, task, job, count);
-    job->tasks.finish(job->tasks.context);
-}
-
 void pir_rigid_boxes_make(pir_rigid_job *job) {
     const uint32_t count = job->leaves - job->first_new;
-    share(job, make_leaf, count);
+    const pir_tasks tasks = job->makers->tasks;
+    const pir_block_work work = {job, count, leaf_number, make_leaf, pack_leaf, take_leaf};
+    job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
         job->status = job->leaf[i].status;
         count_parts(job, &job->leaf[i].inner);
     }
     if (job->status != PIR_OK)
         return;
-    share(job, link_leaf, count);
+    tasks.start(tasks.context, link_leaf, job, count);
+    tasks.finish(tasks.context);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++)
         job->status = job->leaf[i].status;
 }
 
 void pir_rigid_boxes_fill(pir_rigid_job *job) {
-    share(job, fill_leaf, job->listed);
+    const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle};
+    job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
         job->status = job->leaf[job->list[i]].status;
         count_parts(job, &job->leaf[job->list[i]].middle);

@@ -3,12 +3,14 @@
 #include <stdlib.h>
 
 #include <pirouette/plan.h>
+#include <pirouette/version.h>
 
 #include "base/memory.h"
 #include "base/options.h"
 #include "base/report.h"
 #include "plan/rigid/rigid_search.h"
 #include "plan/rigid/wide_pieces.h"
+#include "polytope/file/file_name.h"
 #include "scene/tasks/tasks.h"
 
 struct pir_rigid_plan {
@@ -49,9 +51,10 @@ static pir_status check_numbers(const struct rigid_call *t) {
         if (!(x.x >= low.x && x.y >= low.y && x.z >= low.z && x.x <= high.x && x.y <= high.y && x.z <= high.z))
             return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "%s: it is outside of the bounds", end_name[e]);
     }
-    if (t->how.boxes < PIR_ROTATION_ROOTS || t->how.threads == 0 || t->how.reserved != 0)
-        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, no thread, or a reserved number",
-                        PIR_ROTATION_ROOTS);
+    if (t->how.boxes < PIR_ROTATION_ROOTS || t->how.threads == 0)
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, or no thread", PIR_ROTATION_ROOTS);
+    if (t->how.resume > 1 || (t->how.journal && !t->how.proof))
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: resume is neither 0 nor 1, or a journal has no proof");
     return PIR_OK;
 }
 
@@ -95,10 +98,59 @@ static pir_status check_ends(struct rigid_call *t) {
     return PIR_OK;
 }
 
+static uint64_t hash_doubles(uint64_t hash, const double *x, size_t count) {
+    return pir_hash_words(hash, x, count * sizeof *x);
+}
+
+static uint64_t hash_pieces(uint64_t hash, const pir_plan_pieces *pieces) {
+    for (uint32_t i = 0; i < pieces->count; i++) {
+        const uint32_t of[2] = {pieces->body[i], pir_polytope_vertex_count(pieces->at[i])};
+        hash = pir_hash_words(hash, of, sizeof of);
+        for (uint32_t v = 0; v < of[1]; v++) {
+            const pir_vec3 x = pir_polytope_vertex(pieces->at[i], v);
+            hash = hash_doubles(hash, (const double[]){x.x, x.y, x.z}, 3);
+        }
+    }
+    return hash;
+}
+
+/* All that blocks depend on: not on budgets, which only say which of them are made. */
+static uint64_t hash_of(const struct rigid_call *t) {
+    const pir_rigid_question *q = &t->question;
+    uint64_t hash = pir_hash_bytes(PIR_HASH_START, PIR_VERSION_STRING, sizeof PIR_VERSION_STRING);
+    hash = hash_pieces(hash_pieces(hash_pieces(hash, q->robot), q->obstacles), q->wide);
+    hash = hash_doubles(hash_doubles(hash, q->low, 3), q->high, 3);
+    for (int e = 0; e < 2; e++) {
+        const pir_quat r = q->rotation[e];
+        hash = hash_doubles(hash_doubles(hash, q->at[e], 3), (const double[]){r.x, r.y, r.z, r.w}, 4);
+    }
+    return hash;
+}
+
+/* Decides a question, with its threads and its journal. */
+static pir_status decide_with(struct rigid_call *t, pir_rigid_result *result) {
+    const pir_allocator allocator = pir_allocator_or_default(NULL);
+    pir_block_makers makers = {.journal = NULL};
+    pir_task_pool *pool = NULL;
+    pir_status status = pir_task_pool_create(&allocator, t->how.threads, &pool);
+    if (status == PIR_OK && t->how.journal)
+        status = pir_block_journal_open(t->how.journal, hash_of(t), t->how.resume != 0, t->how.report, &makers.journal);
+    if (status == PIR_OK) {
+        makers.tasks = pir_task_pool_interface(pool);
+        status = pir_rigid_decide(&t->question, &makers, t->how.proof, result);
+        // a part that is not the same again is our own mistake where nobody else had it
+        if (status == PIR_ERR_FORMAT)
+            status = makers.journal ? pir_fail(t->how.report, status, "%s: it has a box that is not the same again",
+                                               pir_short_name(t->how.journal))
+                                    : PIR_ERR_INTERNAL;
+        pir_block_journal_close(makers.journal, status == PIR_OK && result->answer != PIR_TURN_PLAN_UNKNOWN);
+    }
+    pir_task_pool_destroy(pool);
+    return status;
+}
+
 static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
     const pir_rigid_plan_input *in = t->input;
-    const pir_allocator allocator = pir_allocator_or_default(NULL);
-    pir_task_pool *pool = NULL;
     pir_status status = pir_plan_pieces_add(&t->space, in->robot, in->robot_count, "robot", t->how.report, &t->robot);
     if (status == PIR_OK)
         status =
@@ -109,12 +161,9 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
     status = check_ends(t);
     if (status == PIR_OK)
         status = pir_wide_pieces_make(&t->obstacles, t->how.memory, &t->wide);
-    if (status == PIR_OK)
-        status = pir_task_pool_create(&allocator, t->how.threads, &pool);
     if (status != PIR_OK)
         return status;
-    status = pir_rigid_decide(&t->question, pir_task_pool_interface(pool), t->how.proof, &plan->result);
-    pir_task_pool_destroy(pool);
+    status = decide_with(t, &plan->result);
     const pir_rigid_result *r = &plan->result;
     plan->info =
         (pir_rigid_plan_info){r->answer, r->steps, r->boxes, r->divided, r->parts, t->robot.count, t->obstacles.count};

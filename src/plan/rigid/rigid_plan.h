@@ -24,9 +24,9 @@
 #define PIR_PLAN_RIGID_RIGID_PLAN_H
 
 #include <pirouette/plan.h>
-#include <pirouette/tasks.h>
 #include <pirouette/workspace.h>
 
+#include "plan/blocks/block_work.h"
 #include "plan/rigid/box_parts.h"
 #include "plan/rigid/rotation_box.h"
 
@@ -68,7 +68,7 @@ enum pir_rigid_end { PIR_RIGID_START, PIR_RIGID_GOAL, PIR_RIGID_ENDS };
 
 typedef struct pir_rigid_job {
     const pir_rigid_question *question;
-    pir_tasks tasks;
+    const pir_block_makers *makers;
     pir_status status;
     pir_rigid_leaf *leaf;
     uint32_t leaves, leaf_room, alive;

@@ -249,9 +249,9 @@ static bool take_round(pir_rigid_job *job, FILE *proof, pir_rigid_result *result
     return job->status != PIR_OK || divide(job) == 0;
 }
 
-pir_status pir_rigid_decide(const pir_rigid_question *question, pir_tasks tasks, FILE *proof,
+pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
                             pir_rigid_result *ret_result) {
-    pir_rigid_job job = {.question = question, .tasks = tasks};
+    pir_rigid_job job = {.question = question, .makers = makers};
     *ret_result = (pir_rigid_result){0};
     pir_rigid_hubs_begin(&job);
     pir_rigid_boxes_begin(&job);

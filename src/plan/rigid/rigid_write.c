@@ -1,14 +1,34 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * The question, and for each box of rotations its inner sums and the tree of its division. Divisions are made again,
- * and are the same.
+ * and are the same: that is looked at, since the parts that decided may be those of a journal. Threads write the texts
+ * of some boxes each, which go into the file in order.
  */
 #include "plan/rigid/rigid_write.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "base/memory.h"
 #include "plan/plan_write.h"
 #include "plan/rigid/inner_division.h"
+
+/* How many boxes are written at a time. */
+#define MOST_TEXTS 128
+
+/* The text of a box. */
+struct box_text {
+    uint32_t leaf;
+    char *text;
+    size_t size;
+    pir_status status;
+};
+
+struct box_texts {
+    const pir_rigid_job *job; /* where each node has its root at once */
+    uint32_t start;
+    struct box_text at[MOST_TEXTS];
+};
 
 static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
     const struct {
@@ -32,35 +52,62 @@ static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
     pir_plan_put_pieces(w, "obstacles", q->wide);
 }
 
+/* Whether a division has the parts that a leaf has, bit for bit. */
+static pir_status check_parts(const pir_box_division *division, const pir_box_parts *parts) {
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    pir_box_parts again;
+    pir_bytes bytes[2] = {{0}, {0}};
+    pir_status status = pir_box_parts_keep(division, &again);
+    if (status == PIR_OK && !(pir_box_parts_pack(&again, &bytes[0]) && pir_box_parts_pack(parts, &bytes[1])))
+        status = PIR_ERR_MEMORY;
+    if (status == PIR_OK &&
+        !(bytes[0].used == bytes[1].used && memcmp(bytes[0].data, bytes[1].data, bytes[0].used) == 0))
+        status = PIR_ERR_FORMAT;
+    pir_bytes_finish(&bytes[0], &a);
+    pir_bytes_finish(&bytes[1], &a);
+    pir_box_parts_finish(&again);
+    return status;
+}
+
+static void put_division(const pir_rotation_box box, const pir_plan_pieces *sums, pir_plan_writer *w) {
+    int32_t low[4], high[4];
+    pir_rotation_box_bounds(box, low, high);
+    fputs("{\"box\": [", w->file);
+    for (int c = 0; c < 4; c++)
+        fprintf(w->file, "%s[%ld, %ld]", c == 0 ? "" : ", ", (long)low[c], (long)high[c]);
+    fputs("]", w->file);
+    pir_plan_put_pieces(w, "sums", sums);
+    pir_plan_put_tree(w);
+    fputs("}", w->file);
+}
+
 /* One box: the root of each of its cells is that of the node that its part is. */
-static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, pir_plan_writer *w) {
+static pir_status put_box(const struct box_texts *texts, const pir_rigid_leaf *leaf, FILE *file) {
+    const pir_rigid_job *job = texts->job;
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_box_division division;
     pir_plan_pieces sums;
     pir_status status = pir_inner_division_make(job->question, &corners, &sums, &division);
+    if (status == PIR_OK)
+        status = check_parts(&division, &leaf->inner);
     uint32_t *root = calloc(leaf->inner.cells > 0 ? leaf->inner.cells : 1, sizeof *root);
-    const uint32_t most = pir_plan_most_corners(&sums);
-    uint32_t *corner = calloc(most, sizeof *corner), *kept = w->corner;
-    status = status == PIR_OK && (!root || !corner) ? PIR_ERR_MEMORY : status;
+    uint32_t *corner = calloc(pir_plan_most_corners(&sums), sizeof *corner);
+    if (status == PIR_OK && (!root || !corner))
+        status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
+        pir_plan_writer w = {.file = file,
+                             .space = &division.space,
+                             .sums = &division.sums,
+                             .tree = &division.tree,
+                             .root = root,
+                             .start = texts->start,
+                             .corner = corner};
         for (uint32_t i = 0; i < leaf->inner.cells; i++)
-            root[i] = pir_rigid_root(job->root, leaf->node + leaf->inner.cell[i].part);
-        int32_t low[4], high[4];
-        pir_rotation_box_bounds(leaf->box, low, high);
-        fputs("{\"box\": [", w->file);
-        for (int c = 0; c < 4; c++)
-            fprintf(w->file, "%s[%ld, %ld]", c == 0 ? "" : ", ", (long)low[c], (long)high[c]);
-        fputs("]", w->file);
-        w->space = &division.space;
-        w->sums = &division.sums;
-        w->tree = &division.tree;
-        w->root = root;
-        w->corner = corner;
-        pir_plan_put_pieces(w, "sums", &sums);
-        pir_plan_put_tree(w);
-        fputs("}", w->file);
+            root[i] = job->root[leaf->node + leaf->inner.cell[i].part];
+        mpq_init(w.x);
+        put_division(leaf->box, &sums, &w);
+        mpq_clear(w.x);
     }
-    w->corner = kept;
     free(corner);
     free(root);
     pir_box_division_finish(&division);
@@ -68,24 +115,52 @@ static pir_status put_box(pir_rigid_job *job, const pir_rigid_leaf *leaf, pir_pl
     return status;
 }
 
+static bool make_text(void *data, uint32_t index) {
+    struct box_texts *texts = data;
+    struct box_text *own = &texts->at[index];
+    FILE *file = open_memstream(&own->text, &own->size);
+    own->status = file ? put_box(texts, &texts->job->leaf[own->leaf], file) : PIR_ERR_MEMORY;
+    if (file && (ferror(file) | fclose(file)) != 0 && own->status == PIR_OK)
+        own->status = PIR_ERR_MEMORY;
+    return own->status == PIR_OK;
+}
+
+/* Writes boxes, from one on: as many as are written at a time. */
+static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) {
+    const pir_rigid_job *job = texts->job;
+    const bool is_first = *leaf == 0;
+    uint32_t count = 0;
+    for (; *leaf < job->leaves && count < MOST_TEXTS; ++*leaf)
+        if (!job->leaf[*leaf].is_divided)
+            texts->at[count++] = (struct box_text){.leaf = *leaf};
+    const pir_block_work work = {.data = texts, .count = count, .make = make_text};
+    pir_status status = pir_blocks_make(job->makers, &work);
+    for (uint32_t i = 0; i < count; i++) {
+        struct box_text *own = &texts->at[i];
+        status = status == PIR_OK ? own->status : status;
+        if (status == PIR_OK) {
+            fputs(is_first && i == 0 ? "\n " : ",\n ", file);
+            fwrite(own->text, 1, own->size, file);
+        }
+        free(own->text);
+    }
+    return status;
+}
+
 pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file) {
     const pir_rigid_question *q = job->question;
     const uint32_t own = pir_plan_most_corners(q->robot), other = pir_plan_most_corners(q->wide);
     pir_plan_writer w = {.file = file, .start = start, .corner = calloc(own > other ? own : other, sizeof *w.corner)};
+    struct box_texts texts = {.job = job, .start = start};
     pir_status status = w.corner ? PIR_OK : PIR_ERR_MEMORY;
-    bool is_first = true;
+    for (uint32_t n = 0; n < job->nodes; n++)
+        job->root[n] = pir_rigid_root(job->root, n);
     mpq_init(w.x);
     if (status == PIR_OK)
         put_question(&w, q);
     fputs(",\n \"boxes\": [", file);
-    for (uint32_t i = 0; i < job->leaves && status == PIR_OK; i++) {
-        const pir_rigid_leaf *leaf = &job->leaf[i];
-        if (leaf->is_divided)
-            continue;
-        fputs(is_first ? "\n " : ",\n ", file);
-        is_first = false;
-        status = put_box(job, leaf, &w);
-    }
+    for (uint32_t leaf = 0; leaf < job->leaves && status == PIR_OK;)
+        status = put_some(&texts, &leaf, file);
     fputs("]}\n", file);
     mpq_clear(w.x);
     free(w.corner);

@@ -7,7 +7,10 @@
 
 #include "plan/rigid/rigid_plan.h"
 
-/* Writes it: `start` is the root of the nodes that are connected with the start. */
+/*
+ * Writes it: `start` is the root of the nodes that are connected with the start. PIR_ERR_FORMAT where parts of a box
+ * are not those that it has when they are made again.
+ */
 pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file);
 
 #endif
