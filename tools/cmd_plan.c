@@ -16,6 +16,7 @@
 #include "message.h"
 #include "model.h"
 #include "models.h"
+#include "plan_motions.h"
 #include "plan_page.h"
 #include "solid.h"
 #include "target.h"
@@ -36,6 +37,7 @@ struct plan_run {
     pir_rigid_plan_options how;
     struct plan_page page; /* with --page: what it shows, and where it goes */
     struct output_file page_file;
+    const pir_plan_ranks *ranks; /* the processes that share the work, or NULL */
     pir_report report;
     double seconds;
 };
@@ -576,10 +578,12 @@ static char *journal_of(const struct output_file *file) {
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
     char *journal = journal_of(file);
-    if (args_has(run->args, "--resume") && !journal) {
+    const bool is_first = !run->ranks || run->ranks->number == 0;
+    if (args_has(run->args, "--resume") && is_first && !journal) {
         complain("plan: --resume needs -o FILE, beside which FILE.part is");
         return EXIT_BAD_INPUT;
     }
+    run->how.ranks = run->ranks;
     run->how.journal = journal;
     run->how.resume = args_has(run->args, "--resume");
     run->how.report = &run->report;
@@ -592,19 +596,21 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     const pir_status status = pir_rigid_plan_create(&run->motions, &run->how, &plan);
     run->seconds = (double)(clock_now() - start) / 1e9;
     int result = EXIT_BAD_INPUT;
-    if (status == PIR_OK)
-        result = tell_motions(run, plan, file);
-    else
+    if (status != PIR_OK && is_first)
         complain_status("plan", status, &run->report);
+    else if (status == PIR_OK)
+        result = is_first ? tell_motions(run, plan, file) : EXIT_DONE;
     pir_rigid_plan_destroy(plan);
     free(journal);
     return result;
 }
 
-SUBCOMMAND(plan) {
-    struct plan_run run = {.args = args};
+int plan_by(const struct args *args, const pir_plan_ranks *ranks) {
+    struct plan_run run = {.args = args, .ranks = ranks};
     struct output_file file = {0};
     const char *path = args_value(args, "-o");
+    if (path && ranks && ranks->number > 0)
+        path = "/dev/null";
     pir_path_plan *plan = NULL;
     int result = EXIT_BAD_INPUT;
     bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path)) && open_page(&run);
@@ -629,4 +635,8 @@ SUBCOMMAND(plan) {
         pir_solid_release(run.solid[i]);
     free(run.solid);
     return result;
+}
+
+SUBCOMMAND(plan) {
+    return plan_by(args, NULL);
 }

@@ -34,6 +34,7 @@ typedef int command_run(const struct args *args);
 struct command {
     const char *name;
     command_run *run;          /* NULL: the other program has it */
+    bool has_ranks;            /* whether the other program has it for ranks of MPI */
     const char *positional[3]; /* names of its positional arguments, then NULL; the last may end in "..." and repeat */
     size_t required;           /* how many of them must be there */
     const char *summary;       /* one line */

@@ -8,7 +8,8 @@
  * There are two programs of this table. `pirouette` has the subcommands that the core library serves, and starts in a
  * millisecond. `pirouette-slices` has all: what reads and makes slices needs HDF5 and MPI, whose own libraries take
  * tens of milliseconds to load. Each program compiles this file with a macro of its own. Where a subcommand has no run,
- * the first program hands its arguments over to the second (hand_over.h).
+ * the first program hands its arguments over to the second (hand_over.h); where it can run as ranks of MPI, it does so
+ * where a launcher has started it.
  */
 #include "command.h"
 
@@ -19,12 +20,15 @@
 #if defined(PROGRAM_CORE)
 #define CORE(run)   run
 #define SLICES(run) NULL
+#define RANKS(run)  run, .has_ranks = true
 #elif defined(PROGRAM_SLICES)
 #define CORE(run)   run
 #define SLICES(run) run
+#define RANKS(run)  run##_by_ranks
 #else // the program that writes the manual pages runs none
 #define CORE(run)   NULL
 #define SLICES(run) NULL
+#define RANKS(run)  NULL
 #endif
 
 #define HELP_OPTION                                                                                                    \
@@ -96,7 +100,7 @@ static const struct option certify_options[] = {
     MODEL_OPTIONS,
 };
 
-command_run cmd_plan;
+command_run cmd_plan, cmd_plan_by_ranks;
 static const struct option plan_options[] = {
     {"--from", "x,y,z[,x,y,z,w]",
      "where the robot is: a translation and, unless it is not turned, a quaternion; with --axis x,y,z,DEGREES"},
@@ -512,7 +516,7 @@ const struct command command_table[] = {
     },
     {
         .name = "plan",
-        .run = CORE(cmd_plan),
+        .run = RANKS(cmd_plan),
         .positional = {"ROBOT", "OBSTACLE..."},
         .required = 2,
         .summary = "whether a solid can be moved from one place to another between solids, with the proof",

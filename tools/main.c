@@ -16,6 +16,7 @@
 #include "hand_over.h"
 #include "help.h"
 #include "interrupt.h"
+#include "launched.h"
 #include "message.h"
 
 static int run_command(const struct command *command, int argc, char *const *argv) {
@@ -51,7 +52,9 @@ static int run(int argc, char *const *argv) {
     const struct command *command = command_find(argv[1]);
     if (!command)
         return complain("unknown %s '%s'; see pirouette --help", argv[1][0] == '-' ? "option" : "subcommand", argv[1]);
-    return command->run ? run_command(command, argc - 2, argv + 2) : hand_over(argv);
+    if (!command->run || (command->has_ranks && launched_by_mpi()))
+        return hand_over(argv);
+    return run_command(command, argc - 2, argv + 2);
 }
 
 /* Sees to it that no file that is opened gets the number of a standard stream that was closed before the start. */

@@ -235,6 +235,21 @@ PIR_API pir_status pir_turn_plan_get_step(const pir_turn_plan *plan, uint32_t in
 /** A plan with translations and turns about any axis. */
 typedef struct pir_rigid_plan pir_rigid_plan;
 
+/**
+ * Processes that make one plan together, such as ranks of MPI: each calls for the same question with the same options,
+ * but for threads, proof and journal, and gets the same answer. All give a proof, or none; the first alone has a
+ * journal, and its proof is the one to be kept.
+ */
+typedef struct pir_plan_ranks {
+    uint32_t number, count; /**< of this process, from 0; of all */
+    void *context;
+    /**
+     * Gives all processes the bytes of each, one after another in the order of their numbers; called by all in turn,
+     * from the thread that made the call. What it gives stays until the next exchange. False where that fails.
+     */
+    bool (*exchange)(void *context, const void *own, size_t size, void **ret_all, size_t *ret_size);
+} pir_plan_ranks;
+
 /** How it is made. */
 typedef struct pir_rigid_plan_options {
     size_t size;        /**< of this struct, which pir_rigid_plan_options_default sets (base.h) */
@@ -252,12 +267,21 @@ typedef struct pir_rigid_plan_options {
      * proof of no path makes each box again, and a path is proven anew.
      */
     const char *journal;
+    const pir_plan_ranks *ranks; /**< NULL, or the processes that share the work; borrowed for the call */
 } pir_rigid_plan_options;
 
-/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal. O(1). */
+/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal, alone. O(1). */
 static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
-    const pir_rigid_plan_options options = {
-        sizeof(pir_rigid_plan_options), pir_solid_options_default().memory, NULL, NULL, 1u << 16, 1u << 22, 1, 0, NULL};
+    const pir_rigid_plan_options options = {sizeof(pir_rigid_plan_options),
+                                            pir_solid_options_default().memory,
+                                            NULL,
+                                            NULL,
+                                            1u << 16,
+                                            1u << 22,
+                                            1,
+                                            0,
+                                            NULL,
+                                            NULL};
     return options;
 }
 

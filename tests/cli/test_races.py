@@ -264,7 +264,7 @@ class WithoutMpi(Race):
             done = subprocess.run([self.command, *map(str, self.slicing("shape:cube")), output], capture_output=True,
                                   text=True, env={**os.environ, name: value})
             self.assertEqual((done.returncode, done.stdout), (2, ""))
-            self.assertRegex(done.stderr, rf"^pirouette: slice: {name} is {value}, .* no MPI: .*-Dmpi=enabled.*\n$")
+            self.assertRegex(done.stderr, rf"^pirouette: {name} is {value}, .* no MPI: .*-Dmpi=enabled.*\n$")
             self.assertEqual(self.left(output), [])
         done = subprocess.run([self.command, *map(str, self.slicing("shape:cube")), output], capture_output=True,
                               text=True, env={**os.environ, "OMPI_COMM_WORLD_SIZE": "1", "PMIX_RANK": "0"})

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""pirouette slice as ranks of MPI: the same file from any number of them, and after ranks were killed.
+"""pirouette slice and plan as ranks of MPI: the same file from any number of them, and after ranks were killed.
 
 Usage: test_ranks.py COMMAND [CLASS...]. Ends with 77, skipped, where mpirun is missing.
 """
 import hashlib
+import importlib.util
 import json
 import os
 import random
@@ -27,6 +28,10 @@ LONG = ("shape:gs2", "shape:gs3", "--grid", "hopf", "--level", "2")
 
 def launch(ranks, *args):
     return ["mpirun", "--oversubscribe", "-n", str(ranks), COMMAND, "slice", *map(str, args)]
+
+
+def launch_plan(ranks, *args):
+    return ["mpirun", "--oversubscribe", "-n", str(ranks), COMMAND, "plan", *map(str, args)]
 
 
 def run(arguments, **keys):
@@ -127,6 +132,64 @@ class Killed(Ranks):
             # of what was there, each rank may lose the unit that it was appending
             self.assertGreater(json.loads(done.stdout)["resumed"], 0)
             self.assertEqual(digest(path), expected, f"moment {moment}, at {wanted:.0f} of {whole} bytes")
+
+
+class Plans(Ranks):
+    """By any motion: boxes of rotations are dealt, and the texts of the proof."""
+    ENDS = ("--bounds=-1,-1,-2,1,1,2", "--from=0,0,-1.5", "--to=0,0,1.5")
+
+    def models(self, diameter, sides):
+        path = Path(__file__).resolve().parents[2] / "examples" / "plan" / "make_models.py"
+        spec = importlib.util.spec_from_file_location("make_models", path)
+        models = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(models)
+        robot, window = self.path / "robot.off", self.path / f"window-{sides}.off"
+        robot.write_text(models.tetrahedron())
+        window.write_text(models.window(diameter, sides))
+        return robot, window
+
+    def plan(self, job, name, ranks, *more):
+        path = self.path / name
+        arguments = launch_plan(ranks, *job) if ranks else [COMMAND, "plan", *map(str, job)]
+        done = run([*arguments, "-o", str(path), "--json", *more])
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertFalse((self.path / (name + ".part")).exists() and json.loads(done.stdout)["answer"] != "unknown")
+        return json.loads(done.stdout), path.read_bytes()
+
+    def test_ranks_write_the_same_proof(self):
+        job = (*self.models(.3, 3), *self.ENDS)  # some boxes are divided
+        told, proof = self.plan(job, "one.json", 0)
+        self.assertEqual(told["answer"], "no path")
+        self.assertEqual(self.plan(job, "two.json", 2)[1], proof)
+        # what was kept of 32 boxes by one process
+        self.assertEqual(self.plan(job, "part.json", 0, "--boxes=32")[0]["answer"], "unknown")
+        self.assertEqual(self.plan(job, "part.json", 3, "--resume", "--threads=2")[1], proof)
+
+    def test_ranks_find_the_same_path(self):
+        job = (*self.models(1.1, 8), *self.ENDS)
+        told = [self.plan(job, "path.json", ranks)[0] for ranks in (0, 2)]
+        self.assertEqual(told[0]["answer"], "path")
+        self.assertEqual(*({**one, "seconds": 0} for one in told))
+
+    def test_what_is_wrong_ends_all_ranks(self):
+        robot, window = self.models(1.1, 8)
+        for job, says in (((robot, window, *self.ENDS[:2], "--to=0,0,9"), "outside of the bounds"),
+                          ((robot, self.path / "none.off", *self.ENDS), "none.off"),
+                          ((robot, window, *self.ENDS, "-o", self.path / "none" / "a.json"), "none")):
+            done = run(launch_plan(2, *job))
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn(says, done.stderr)
+
+    def test_ranks_are_killed_and_resumed(self):
+        job = (*self.models(.2, 4), *self.ENDS)
+        proof, part = self.plan(job, "one.json", 0)[1], self.path / "two.json.part"
+        with subprocess.Popen(launch_plan(2, *job, "-o", self.path / "two.json"), stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL, env=RANKS) as launched:
+            while launched.poll() is None and not (part.exists() and part.stat().st_size > 16):
+                time.sleep(0.002)
+            launched.terminate()
+            launched.wait(timeout=600)
+        self.assertEqual(self.plan(job, "two.json", 2, "--resume")[1], proof)
 
 
 if __name__ == "__main__":

@@ -240,6 +240,15 @@ static pir_status status_of(const pir_rigid_plan_input *input, const pir_rigid_p
     return status;
 }
 
+static bool exchange_nothing(void *context, const void *own, size_t size, void **ret_all, size_t *ret_size) {
+    (void)context;
+    (void)own;
+    (void)size;
+    (void)ret_all;
+    (void)ret_size;
+    return false;
+}
+
 /* Questions that are none: the report says which end, and why. */
 static void test_bad(void **state) {
     (void)state;
@@ -275,6 +284,14 @@ static void test_bad(void **state) {
     options.resume = 0;
     options.journal = "none/journal"; // without a proof, and in no folder
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.journal = NULL;
+    pir_plan_ranks ranks = {2, 2, NULL, exchange_nothing};
+    options.ranks = &ranks;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    ranks.number = 1; // the other is gone
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_MEMORY);
+    options.ranks = NULL;
+    options.journal = "none/journal";
     options.proof = stdout;
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_FILE);
     assert_non_null(strstr(report.text, "journal: cannot write: No such file"));

@@ -15,10 +15,12 @@
 
 #include <stdlib.h>
 
+#include "../launched.h"
 #include "../message.h"
 
 #if PIR_HAVE_MPI
 
+#include <limits.h>
 #include <mpi.h>
 #include <pthread.h>
 #include <time.h>
@@ -272,20 +274,44 @@ pir_status ranks_run(struct ranks *ranks, pir_cspace_job *job, uint64_t pairs, p
     return shared->status;
 }
 
+/* The bytes that all have given last, and how many each gives. */
+static char *given;
+static int *counts, *places;
+
+/* Bytes of this process go to all; MPI counts them in ints. */
+bool ranks_exchange(void *context, const void *own, size_t size, void **ret_all, size_t *ret_size) {
+    const struct ranks *ranks = context;
+    int mine = size < INT_MAX ? (int)size : -1;
+    size_t all = 0;
+    counts = counts ? counts : calloc(ranks->count, sizeof *counts);
+    places = places ? places : calloc(ranks->count, sizeof *places);
+    if (!ranks_agree(ranks, counts && places && mine >= 0))
+        return false;
+    MPI_Allgather(&mine, 1, MPI_INT, counts, 1, MPI_INT, MPI_COMM_WORLD);
+    for (uint32_t rank = 0; rank < ranks->count; rank++) {
+        places[rank] = (int)(all < INT_MAX ? all : INT_MAX);
+        all += (size_t)counts[rank];
+    }
+    free(given);
+    given = malloc(all + 1);
+    if (!ranks_agree(ranks, given && all < INT_MAX))
+        return false;
+    MPI_Allgatherv(own, mine, MPI_BYTE, given, counts, places, MPI_BYTE, MPI_COMM_WORLD);
+    *ret_all = given;
+    *ret_size = all;
+    return true;
+}
+
+void ranks_stop(const struct ranks *ranks) {
+    if (ranks->count > 1)
+        MPI_Abort(MPI_COMM_WORLD, 2);
+}
+
 uint64_t ranks_done(const struct ranks *ranks) {
     return ranks->shared ? ranks->shared->dealer.done : 0;
 }
 
 /* --- beginning and end --- */
-
-/* Whether a launcher of MPI has started this process. */
-static bool is_launched(void) {
-    static const char *const marks[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMI_RANK", "PMIX_RANK"};
-    for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
-        if (getenv(marks[i]))
-            return true;
-    return false;
-}
 
 static bool make_shared(struct ranks *ranks) {
     struct ranks_shared *shared = calloc(1, sizeof *shared);
@@ -302,7 +328,7 @@ static bool make_shared(struct ranks *ranks) {
 
 bool ranks_begin(struct ranks *ranks) {
     *ranks = (struct ranks){0, 1, NULL};
-    if (!is_launched())
+    if (!launched_by_mpi())
         return true;
     int level = MPI_THREAD_SINGLE, number = 0, count = 1;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &level);
@@ -312,7 +338,7 @@ bool ranks_begin(struct ranks *ranks) {
     ranks->count = (uint32_t)count;
     if (ranks_agree(ranks, level >= MPI_THREAD_SERIALIZED && (count == 1 || make_shared(ranks))))
         return true;
-    complain("slice: MPI serves one thread alone, or memory ran out");
+    complain("MPI serves one thread alone, or memory ran out");
     return false;
 }
 
@@ -336,6 +362,11 @@ void ranks_end(struct ranks *ranks) {
         free(shared->holds);
         free(shared);
     }
+    free(given);
+    free(counts);
+    free(places);
+    given = NULL;
+    counts = places = NULL;
     *ranks = (struct ranks){0, 1, NULL};
     MPI_Initialized(&launched);
     if (launched)
@@ -365,7 +396,7 @@ bool ranks_begin(struct ranks *ranks) {
     *ranks = (struct ranks){0, 1, NULL};
     const char *mark = launched_as_one_of_several();
     if (mark)
-        complain("slice: %s is %s, so this is one of several ranks of MPI, but this build has no MPI: build with "
+        complain("%s is %s, so this is one of several ranks of MPI, but this build has no MPI: build with "
                  "-Dmpi=enabled, or start one process with --threads",
                  mark, getenv(mark));
     return !mark;
@@ -378,6 +409,17 @@ void ranks_end(struct ranks *ranks) {
 bool ranks_agree(const struct ranks *ranks, bool good) {
     (void)ranks;
     return good;
+}
+
+bool ranks_exchange(void *context, const void *own, size_t size, void **ret_all, size_t *ret_size) {
+    (void)context;
+    *ret_all = (void *)own;
+    *ret_size = size;
+    return true;
+}
+
+void ranks_stop(const struct ranks *ranks) {
+    (void)ranks;
 }
 
 uint64_t ranks_next(const struct ranks *ranks) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Processes that make one file of slices together, ranks of MPI. Rank 0 deals the units and makes some as well; each
+ * Processes that make one file together, ranks of MPI. Of slices rank 0 deals the units and makes some as well; each
  * rank appends to a part of its own. Without a launcher such as mpirun there is one rank; in a build without MPI a
  * launcher that starts several is refused.
  *
@@ -31,6 +31,12 @@ void ranks_end(struct ranks *ranks);
 
 /* Whether `good` is true on all ranks; all call it. */
 bool ranks_agree(const struct ranks *ranks, bool good);
+
+/* Gives all ranks the bytes of each: `exchange` of pir_plan_ranks, of which a struct ranks is the context. */
+bool ranks_exchange(void *context, const void *own, size_t size, void **ret_all, size_t *ret_size);
+
+/* Ends all ranks at once, where there are others: they may wait for this one. */
+void ranks_stop(const struct ranks *ranks);
 
 /* The next unit for this rank: `claim` of a job's options, where there are several ranks. */
 uint64_t ranks_next(const struct ranks *ranks);

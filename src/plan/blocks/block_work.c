@@ -1,15 +1,39 @@
 /* SPDX-License-Identifier: MIT */
-/* See block_work.h. */
+/*
+ * Alone, each task takes or makes one block. With other processes there are rounds of so many blocks, each of three
+ * exchanges: the first process gives what its journal has; each makes some of the rest, and gives those; and they say
+ * whether what was made could be kept. So all know the same at every step.
+ */
 #include "plan/blocks/block_work.h"
 
 #include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* How many blocks are dealt in a round. */
+#define MOST_DEALT 1024
+
+struct packed_block {
+    uint32_t index;
+    int32_t status;
+    uint64_t size;
+};
 
 /* Shared by the tasks. */
 struct block_share {
     const pir_block_makers *makers;
     const pir_block_work *work;
     atomic_int failure; /* of keeping what is made: a status */
+    /* with other processes: blocks of the round that this one looks for or makes, their bytes and statuses */
+    uint32_t *index, count;
+    pir_bytes *block;
+    pir_status *status;
 };
+
+static void fail(struct block_share *share, pir_status status) {
+    if (status != PIR_OK)
+        atomic_store(&share->failure, (int)status);
+}
 
 static void make_one(void *context, uint32_t index) {
     struct block_share *share = context;
@@ -19,19 +43,166 @@ static void make_one(void *context, uint32_t index) {
     const uint64_t number = journal ? work->number(work->data, index) : 0;
     pir_bytes block = {0};
     const bool is_there = journal && pir_block_journal_find(journal, number, &block);
-    if (!(is_there && work->take(work->data, index, &block)) && work->make(work->data, index) && journal) {
+    if (!(is_there && work->take(work->data, index, PIR_OK, &block)) && work->make(work->data, index) == PIR_OK &&
+        journal) {
         block.used = 0;
-        const pir_status status =
-            work->pack(work->data, index, &block) ? pir_block_journal_add(journal, number, &block) : PIR_ERR_MEMORY;
-        if (status != PIR_OK)
-            atomic_store(&share->failure, (int)status);
+        fail(share,
+             work->pack(work->data, index, &block) ? pir_block_journal_add(journal, number, &block) : PIR_ERR_MEMORY);
     }
     pir_bytes_finish(&block, &a);
+}
+
+/* --- with other processes --- */
+
+/* Looks for a block in the journal of this process. */
+static void find_one(void *context, uint32_t i) {
+    struct block_share *share = context;
+    const pir_block_work *work = share->work;
+    pir_block_journal *journal = work->number ? share->makers->journal : NULL;
+    const bool found =
+        journal && pir_block_journal_find(journal, work->number(work->data, share->index[i]), &share->block[i]);
+    share->status[i] = found ? PIR_OK : PIR_ERR_EMPTY;
+}
+
+static void make_dealt(void *context, uint32_t i) {
+    struct block_share *share = context;
+    const pir_block_work *work = share->work;
+    share->status[i] = work->make(work->data, share->index[i]);
+    if (share->status[i] == PIR_OK && !work->pack(work->data, share->index[i], &share->block[i]))
+        fail(share, PIR_ERR_MEMORY);
+}
+
+static bool append(pir_bytes *to, const void *data, size_t size) {
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    if (!pir_bytes_reserve(to, &a, size))
+        return false;
+    if (size > 0)
+        memcpy(to->data + to->used, data, size);
+    to->used += size;
+    return true;
+}
+
+/* Gives the blocks of this process, but those that are not there, to all. */
+static pir_status give(struct block_share *share, pir_bytes *all) {
+    const pir_plan_ranks *ranks = share->makers->ranks;
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    pir_bytes own = {0};
+    bool good = true;
+    for (uint32_t i = 0; i < share->count && good; i++) {
+        const struct packed_block head = {share->index[i], (int32_t)share->status[i], share->block[i].used};
+        if (share->status[i] != PIR_ERR_EMPTY)
+            good = append(&own, &head, sizeof head) && append(&own, share->block[i].data, share->block[i].used);
+    }
+    *all = (pir_bytes){0};
+    if (good)
+        good = ranks->exchange(ranks->context, own.data, own.used, (void **)&all->data, &all->used);
+    pir_bytes_finish(&own, &a);
+    return good ? PIR_OK : PIR_ERR_MEMORY;
+}
+
+/* Takes what all have given; the first process keeps what is new. `is_taken` is per block of the round. */
+static pir_status take_all(struct block_share *share, const pir_bytes *all, uint32_t first, bool is_new,
+                           bool *is_taken) {
+    const pir_block_work *work = share->work;
+    pir_block_journal *journal = work->number && is_new ? share->makers->journal : NULL;
+    for (size_t at = 0; at < all->used;) {
+        struct packed_block head;
+        if (all->used - at < sizeof head)
+            return PIR_ERR_FORMAT;
+        memcpy(&head, all->data + at, sizeof head);
+        at += sizeof head;
+        if (head.size > all->used - at || head.index < first || head.index - first >= MOST_DEALT)
+            return PIR_ERR_FORMAT;
+        const pir_bytes block = {all->data + at, head.size, head.size};
+        at += head.size;
+        bool *own = &is_taken[head.index - first];
+        // a block that this process made itself is there
+        if (!*own)
+            *own = work->take(work->data, head.index, (pir_status)head.status, &block);
+        if (is_new && !*own)
+            return PIR_ERR_FORMAT;
+        if (journal && head.status == PIR_OK)
+            fail(share, pir_block_journal_add(journal, work->number(work->data, head.index), &block));
+    }
+    return PIR_OK;
+}
+
+/* Has all processes fail where one does. */
+static pir_status agree(const pir_block_makers *makers, pir_status status) {
+    const int32_t own = (int32_t)status;
+    void *all;
+    size_t size;
+    if (!makers->ranks->exchange(makers->ranks->context, &own, sizeof own, &all, &size))
+        return PIR_ERR_MEMORY;
+    for (size_t at = 0; at + sizeof own <= size && status == PIR_OK; at += sizeof own) {
+        int32_t other;
+        memcpy(&other, (const char *)all + at, sizeof other);
+        status = (pir_status)other;
+    }
+    return status;
+}
+
+static void run(struct block_share *share, void (*task)(void *context, uint32_t index)) {
+    const pir_tasks tasks = share->makers->tasks;
+    for (uint32_t i = 0; i < share->count; i++)
+        share->block[i].used = 0;
+    tasks.start(tasks.context, task, share, share->count);
+    tasks.finish(tasks.context);
+}
+
+/* Makes the blocks from one on: as many as are dealt in a round. */
+static pir_status make_round(struct block_share *share, uint32_t first, uint32_t count) {
+    const pir_plan_ranks *ranks = share->makers->ranks;
+    bool is_taken[MOST_DEALT] = {false};
+    pir_bytes all;
+    share->count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        share->index[share->count++] = first + i;
+    run(share, find_one);
+    pir_status status = give(share, &all);
+    if (status == PIR_OK)
+        status = take_all(share, &all, first, false, is_taken);
+    if (status != PIR_OK)
+        return status;
+    // every so manyth of those that no journal had
+    uint32_t left = 0;
+    share->count = 0;
+    for (uint32_t i = 0; i < count; i++)
+        if (!is_taken[i] && left++ % ranks->count == ranks->number)
+            share->index[share->count++] = first + i;
+    run(share, make_dealt);
+    status = give(share, &all);
+    for (uint32_t i = 0; i < share->count; i++)
+        is_taken[share->index[i] - first] = true;
+    if (status == PIR_OK)
+        status = take_all(share, &all, first, true, is_taken);
+    if (status == PIR_OK)
+        status = (pir_status)atomic_load(&share->failure);
+    return agree(share->makers, status);
+}
+
+static pir_status make_dealt_blocks(struct block_share *share) {
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    const uint32_t all = share->work->count, most = all < MOST_DEALT ? all : MOST_DEALT;
+    share->index = calloc(most + 1, sizeof *share->index);
+    share->block = calloc(most + 1, sizeof *share->block);
+    share->status = calloc(most + 1, sizeof *share->status);
+    pir_status status = share->index && share->block && share->status ? PIR_OK : PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < all && status == PIR_OK; i += MOST_DEALT)
+        status = make_round(share, i, all - i < MOST_DEALT ? all - i : MOST_DEALT);
+    for (uint32_t i = 0; i < most && share->block; i++)
+        pir_bytes_finish(&share->block[i], &a);
+    free(share->index);
+    free(share->block);
+    free(share->status);
+    return status;
 }
 
 pir_status pir_blocks_make(const pir_block_makers *makers, const pir_block_work *work) {
     struct block_share share = {.makers = makers, .work = work};
     atomic_init(&share.failure, PIR_OK);
+    if (makers->ranks && makers->ranks->count > 1)
+        return make_dealt_blocks(&share);
     makers->tasks.start(makers->tasks.context, make_one, &share, work->count);
     makers->tasks.finish(makers->tasks.context);
     return (pir_status)atomic_load(&share.failure);

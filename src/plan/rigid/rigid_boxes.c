@@ -125,15 +125,16 @@ static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
     return pir_box_parts_pack(&new_leaf(data, index)->inner, block);
 }
 
-static bool take_leaf(void *data, uint32_t index, const pir_bytes *block) {
-    pir_box_parts *inner = &new_leaf(data, index)->inner;
-    const bool good = pir_box_parts_unpack(block, inner);
+static bool take_leaf(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
+    pir_rigid_leaf *leaf = new_leaf(data, index);
+    leaf->status = status;
+    const bool good = status != PIR_OK || pir_box_parts_unpack(block, &leaf->inner);
     if (!good)
-        pir_box_parts_finish(inner);
+        pir_box_parts_finish(&leaf->inner);
     return good;
 }
 
-static bool make_leaf(void *data, uint32_t index) {
+static pir_status make_leaf(void *data, uint32_t index) {
     const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = new_leaf(data, index);
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
@@ -144,7 +145,7 @@ static bool make_leaf(void *data, uint32_t index) {
         leaf->status = pir_box_parts_keep(&division, &leaf->inner);
     pir_box_division_finish(&division);
     pir_plan_pieces_over_free(&sums);
-    return leaf->status == PIR_OK;
+    return leaf->status;
 }
 
 static pir_rigid_leaf *listed_leaf(void *data, uint32_t index) {
@@ -160,33 +161,38 @@ static bool pack_middle(void *data, uint32_t index, pir_bytes *block) {
     return pir_box_parts_pack(&listed_leaf(data, index)->middle, block);
 }
 
-static bool take_middle(void *data, uint32_t index, const pir_bytes *block) {
-    pir_rigid_leaf *leaf = listed_leaf(data, index);
-    leaf->is_full = pir_box_parts_unpack(block, &leaf->middle);
-    if (!leaf->is_full)
-        pir_box_parts_finish(&leaf->middle);
-    return leaf->is_full;
+/* Notes how a middle was made; a robot that is too thin for outer pieces has no hubs. */
+static pir_status note_middle(pir_rigid_leaf *leaf, pir_status status) {
+    leaf->is_full = status == PIR_OK;
+    leaf->status = status == PIR_ERR_LIMIT ? PIR_OK : status;
+    return status;
 }
 
-static bool fill_leaf(void *data, uint32_t index) {
+static bool take_middle(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
+    pir_rigid_leaf *leaf = listed_leaf(data, index);
+    const bool good = status != PIR_OK || pir_box_parts_unpack(block, &leaf->middle);
+    if (good)
+        note_middle(leaf, status);
+    else
+        pir_box_parts_finish(&leaf->middle);
+    return good;
+}
+
+static pir_status fill_leaf(void *data, uint32_t index) {
     const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = listed_leaf(data, index);
     const pir_plan_turns middle = {{pir_rotation_box_middle(leaf->box)}, 1};
     pir_plan_pieces outer;
-    leaf->status = pir_plan_pieces_over(job->question->robot, &middle, true, &outer);
-    if (leaf->status == PIR_OK) {
+    pir_status status = pir_plan_pieces_over(job->question->robot, &middle, true, &outer);
+    if (status == PIR_OK) {
         pir_box_division division;
-        leaf->status = pir_box_division_make(job->question, &outer, false, &division);
-        if (leaf->status == PIR_OK)
-            leaf->status = pir_box_parts_keep(&division, &leaf->middle);
+        status = pir_box_division_make(job->question, &outer, false, &division);
+        if (status == PIR_OK)
+            status = pir_box_parts_keep(&division, &leaf->middle);
         pir_box_division_finish(&division);
     }
     pir_plan_pieces_over_free(&outer);
-    leaf->is_full = leaf->status == PIR_OK;
-    // a robot that is too thin for outer pieces has no hubs
-    if (leaf->status == PIR_ERR_LIMIT)
-        leaf->status = PIR_OK;
-    return leaf->is_full;
+    return note_middle(leaf, status);
 }
 
 /* --- links --- */

@@ -55,6 +55,10 @@ static pir_status check_numbers(const struct rigid_call *t) {
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, or no thread", PIR_ROTATION_ROOTS);
     if (t->how.resume > 1 || (t->how.journal && !t->how.proof))
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: resume is neither 0 nor 1, or a journal has no proof");
+    const pir_plan_ranks *ranks = t->how.ranks;
+    if (ranks && (ranks->number >= ranks->count || !ranks->exchange || (ranks->number > 0 && t->how.journal)))
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT,
+                        "plan: no such process, or one beside the first has a journal");
     return PIR_OK;
 }
 
@@ -130,7 +134,7 @@ static uint64_t hash_of(const struct rigid_call *t) {
 /* Decides a question, with its threads and its journal. */
 static pir_status decide_with(struct rigid_call *t, pir_rigid_result *result) {
     const pir_allocator allocator = pir_allocator_or_default(NULL);
-    pir_block_makers makers = {.journal = NULL};
+    pir_block_makers makers = {.ranks = t->how.ranks};
     pir_task_pool *pool = NULL;
     pir_status status = pir_task_pool_create(&allocator, t->how.threads, &pool);
     if (status == PIR_OK && t->how.journal)

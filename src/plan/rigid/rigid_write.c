@@ -115,14 +115,34 @@ static pir_status put_box(const struct box_texts *texts, const pir_rigid_leaf *l
     return status;
 }
 
-static bool make_text(void *data, uint32_t index) {
+static pir_status make_text(void *data, uint32_t index) {
     struct box_texts *texts = data;
     struct box_text *own = &texts->at[index];
     FILE *file = open_memstream(&own->text, &own->size);
     own->status = file ? put_box(texts, &texts->job->leaf[own->leaf], file) : PIR_ERR_MEMORY;
     if (file && (ferror(file) | fclose(file)) != 0 && own->status == PIR_OK)
         own->status = PIR_ERR_MEMORY;
-    return own->status == PIR_OK;
+    return own->status;
+}
+
+static bool pack_text(void *data, uint32_t index, pir_bytes *block) {
+    const struct box_text *own = &((struct box_texts *)data)->at[index];
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    if (!pir_bytes_reserve(block, &a, own->size))
+        return false;
+    memcpy(block->data + block->used, own->text, own->size);
+    block->used += own->size;
+    return true;
+}
+
+static bool take_text(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
+    struct box_text *own = &((struct box_texts *)data)->at[index];
+    own->text = malloc(block->used + 1);
+    own->size = own->text ? block->used : 0;
+    own->status = own->text ? status : PIR_ERR_MEMORY;
+    if (own->size > 0)
+        memcpy(own->text, block->data, own->size);
+    return true;
 }
 
 /* Writes boxes, from one on: as many as are written at a time. */
@@ -133,7 +153,7 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
     for (; *leaf < job->leaves && count < MOST_TEXTS; ++*leaf)
         if (!job->leaf[*leaf].is_divided)
             texts->at[count++] = (struct box_text){.leaf = *leaf};
-    const pir_block_work work = {.data = texts, .count = count, .make = make_text};
+    const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text};
     pir_status status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = 0; i < count; i++) {
         struct box_text *own = &texts->at[i];
