@@ -18,12 +18,16 @@
 #include "models.h"
 #include "plan_motions.h"
 #include "plan_page.h"
+#include "progress.h"
 #include "solid.h"
 #include "target.h"
 #include "text.h"
 #include "turn.h"
 
 #define FULL_TURN (2 * 3.14159265358979323846)
+
+/* So that bytes fit into 63 bits, or into a size_t of 32. */
+#define MOST_MEGABYTES (SIZE_MAX / 4 >> 20)
 
 struct plan_run {
     const struct args *args;
@@ -38,6 +42,8 @@ struct plan_run {
     struct plan_page page; /* with --page: what it shows, and where it goes */
     struct output_file page_file;
     const pir_plan_ranks *ranks; /* the processes that share the work, or NULL */
+    struct progress bar;         /* of boxes that are made, of as many as may be; then of those that are written */
+    bool is_written;
     pir_report report;
     double seconds;
 };
@@ -119,7 +125,7 @@ static bool read_turns(struct plan_run *run, const double bounds[6]) {
 static bool read_motions(struct plan_run *run, const double bounds[6]) {
     const struct args *args = run->args;
     pir_rigid_plan_input *in = &run->motions;
-    uint64_t boxes = 0, threads = 1;
+    uint64_t boxes = 0, threads = 1, memory = 0;
     if (args_has(args, "--open")) {
         complain("plan: --open goes with --translate-only alone");
         return false;
@@ -129,6 +135,7 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
         return false;
     }
     if (!args_count(args, "--boxes", 32, UINT32_MAX / 16, &boxes) || !args_count(args, "--threads", 1, 64, &threads) ||
+        !args_count(args, "--memory", 1, MOST_MEGABYTES, &memory) ||
         !read_place(args, "--from", &in->from.rotation, &in->from.translation) ||
         !read_place(args, "--to", &in->to.rotation, &in->to.translation))
         return false;
@@ -137,12 +144,13 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
     run->how = pir_rigid_plan_options_default();
     run->how.threads = (uint32_t)threads;
     run->how.boxes = boxes > 0 ? (uint32_t)boxes : run->how.boxes;
+    run->how.memory = memory > 0 ? (size_t)memory << 20 : run->how.memory;
     run->how.parts = run->options.parts > 0 ? run->options.parts : run->how.parts;
     return target_check(args, "-o", NULL);
 }
 
 /* Options that only plans by any motion have. */
-static const char *const of_motions[] = {"--boxes", "--threads", "--resume"};
+static const char *const of_motions[] = {"--boxes", "--memory", "--threads", "--resume"};
 
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
@@ -574,6 +582,17 @@ static char *journal_of(const struct output_file *file) {
     return path;
 }
 
+static bool on_progress(void *context, uint32_t made, uint32_t written) {
+    struct plan_run *run = context;
+    if (written > 0 && !run->is_written) {
+        progress_end(&run->bar);
+        run->bar = progress_new(made);
+        run->is_written = true;
+    }
+    progress_show(&run->bar, written > 0 ? written : made);
+    return true;
+}
+
 /* Plans with neither --axis nor --translate-only. */
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
@@ -586,6 +605,9 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     run->how.ranks = run->ranks;
     run->how.journal = journal;
     run->how.resume = args_has(run->args, "--resume");
+    run->bar = progress_new(run->how.boxes);
+    run->how.progress = is_first ? on_progress : NULL;
+    run->how.context = run;
     run->how.report = &run->report;
     run->how.proof = proof_file(run, file);
     run->motions.robot = run->input.robot;
@@ -595,6 +617,7 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     const int64_t start = clock_now();
     const pir_status status = pir_rigid_plan_create(&run->motions, &run->how, &plan);
     run->seconds = (double)(clock_now() - start) / 1e9;
+    progress_end(&run->bar);
     int result = EXIT_BAD_INPUT;
     if (status != PIR_OK && is_first)
         complain_status("plan", status, &run->report);
@@ -609,7 +632,11 @@ int plan_by(const struct args *args, const pir_plan_ranks *ranks) {
     struct plan_run run = {.args = args, .ranks = ranks};
     struct output_file file = {0};
     const char *path = args_value(args, "-o");
-    if (path && ranks && ranks->number > 0)
+    const bool is_first = !ranks || ranks->number == 0;
+    // plans of other kinds are made by the first process alone
+    if (!is_first && (args_has(args, "--axis") || args_has(args, "--translate-only")))
+        return EXIT_DONE;
+    if (path && !is_first)
         path = "/dev/null";
     pir_path_plan *plan = NULL;
     int result = EXIT_BAD_INPUT;

@@ -109,6 +109,7 @@ static const struct option plan_options[] = {
     {"--axis", "x,y,z", "by translations, between --bounds, and turns about this axis through the robot's origin"},
     {"--arcs", "N", "with --axis: divide the full turn into N arcs at most, 8, 16, ... 65536 (1024)"},
     {"--boxes", "N", "by any motion: divide all rotations into N boxes at most (65536)"},
+    {"--memory", "MB", "by any motion: say unknown where boxes would take more than so many MiB (4096)"},
     {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
     {"--resume", NULL,
      "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer"},

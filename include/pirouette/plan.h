@@ -268,6 +268,13 @@ typedef struct pir_rigid_plan_options {
      */
     const char *journal;
     const pir_plan_ranks *ranks; /**< NULL, or the processes that share the work; borrowed for the call */
+    /**
+     * NULL, or told how far the call is, each time that some boxes are made or written: how many are made of those that
+     * there are now, and how many the proof has. False ends the call with an unknown answer. Called by the thread that
+     * made the call; with `ranks` all processes have to say the same.
+     */
+    bool (*progress)(void *context, uint32_t made, uint32_t written);
+    void *context; /**< given to `progress` */
 } pir_rigid_plan_options;
 
 /** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal, alone. O(1). */
@@ -280,6 +287,8 @@ static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
                                             1u << 22,
                                             1,
                                             0,
+                                            NULL,
+                                            NULL,
                                             NULL,
                                             NULL};
     return options;

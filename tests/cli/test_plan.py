@@ -185,6 +185,8 @@ class Plan(PlanTest):
         self.bad(*good, "--arcs=8", says=("--arcs",))
         self.bad(*good, "--boxes=31", says=("--boxes",))
         self.bad(*good, "--threads=0", says=("--threads",))
+        self.bad(*good, "--memory=0", says=("--memory",))
+        self.bad(*good, "--axis=0,0,1", "--memory=9", says=("--memory", "--axis"))
         self.bad("plan", solid, plate, "--from=0,0,0", *good[4:], says=("from", "meets an obstacle"))
         self.bad("plan", solid, plate, "--from=0,0,-17,0,0,0,0", *good[4:], says=("--from", "quaternion"))
         self.bad(*good, "--translate-only", "--threads=2", says=("--threads",))

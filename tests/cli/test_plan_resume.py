@@ -6,6 +6,7 @@ PIR_TEST_KILLS says how often a run is killed (4), PIR_TEST_SEED when.
 """
 import os
 import random
+import re
 import signal
 import struct
 import subprocess
@@ -13,7 +14,7 @@ import sys
 import time
 import unittest
 
-from command_test import main, with_own_signals
+from command_test import main, read_terminal, with_own_signals
 from test_plan import MODELS, PlanTest
 
 KILLS = int(os.environ.get("PIR_TEST_KILLS", "4"))
@@ -149,6 +150,7 @@ class Resumed(PlanTest):
         kept = self.part.stat().st_size
         self.assertEqual(self.run_job("--resume", "--boxes=40", "--json").returncode, 0)
         self.assertGreater(self.part.stat().st_size, kept)
+        self.assertRegex(self.run_job("--resume", "--memory=1").stdout, "^unknown")
         self.window(.2, 4)  # another question, not resumed
         self.assertEqual(self.run_job().returncode, 0)
         self.assertFalse(self.part.exists())
@@ -206,6 +208,20 @@ class Resumed(PlanTest):
             self.assertRegex(second.stderr, r"a\.json\.part: another process is writing to it")
             self.assertEqual(first.wait(), 0)
         self.assertEqual(self.out.read_bytes(), whole)
+
+    def test_a_terminal_shows_boxes_made_and_written(self):
+        self.window(.3, 3)
+        master, slave = self.open_terminal()
+        with subprocess.Popen([*self.job, "-o", str(self.out)], stdout=subprocess.DEVNULL, stderr=slave) as run:
+            os.close(slave)
+            shown = b""
+            while more := read_terminal(master, 60):
+                shown += more
+            self.assertEqual(run.wait(), 0)
+        for total in (65536, 312):
+            done = [int(n) for n in re.findall(rb"(\d+) of %d, [0-9.e+]+ a second" % total, shown)]
+            self.assertEqual(done, sorted(done))
+        self.assertRegex(shown, rb"\r\[")
 
     def test_what_is_wrong_is_told(self):
         job = self.job[1:]

@@ -207,6 +207,49 @@ static void test_budget(void **state) {
     release_gate(&g);
 }
 
+/* The most that was told, and when the call is to end. */
+struct told {
+    uint32_t made, written, end, calls;
+};
+
+static bool on_progress(void *context, uint32_t made, uint32_t written) {
+    struct told *told = context;
+    told->calls++;
+    assert_true(made >= told->made && written >= told->written && written <= made);
+    told->made = made;
+    told->written = written;
+    return told->calls != told->end;
+}
+
+/* Progress is told to the last box; where it says so the call ends as unknown, while boxes are made or written. */
+static void test_progress(void **state) {
+    (void)state;
+    struct gate g;
+    pir_rigid_plan_info info;
+    g.robot = make_tetrahedron(16, &g.shape);
+    make_wall(2, 2, 17, &g);
+    uint32_t calls = 0;
+    for (uint32_t end = 0; end <= calls; end++) {
+        struct told told = {.end = end};
+        pir_rigid_plan_options options = pir_rigid_plan_options_default();
+        pir_rigid_plan *plan = NULL;
+        options.progress = on_progress;
+        options.context = &told;
+        options.proof = tmpfile();
+        assert_non_null(options.proof);
+        assert_int_equal(pir_rigid_plan_create(&g.input, &options, &plan), PIR_OK);
+        pir_rigid_plan_describe(plan, &info);
+        assert_int_equal(info.answer, end == 0 ? PIR_TURN_PLAN_NO_PATH : PIR_TURN_PLAN_UNKNOWN);
+        calls = end == 0 ? told.calls : calls;
+        assert_int_equal(told.calls, end == 0 ? calls : end);
+        assert_true(end > 0 || (told.made == 32 && told.written == 32));
+        pir_rigid_plan_destroy(plan);
+        fclose(options.proof);
+    }
+    assert_true(calls >= 2);
+    release_gate(&g);
+}
+
 /* Random gates: what is decided is right, and is never decided otherwise with another budget. PIR_TEST_CASES. */
 static void test_gates(void **state) {
     (void)state;
@@ -316,9 +359,10 @@ static int write_proof(const char *path) {
 int main(int count, char **words) {
     if (count == 2)
         return write_proof(words[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),  cmocka_unit_test(test_slot),
-                                       cmocka_unit_test(test_tight), cmocka_unit_test(test_budget),
-                                       cmocka_unit_test(test_gates), cmocka_unit_test(test_bad)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),    cmocka_unit_test(test_slot),
+                                       cmocka_unit_test(test_tight),   cmocka_unit_test(test_budget),
+                                       cmocka_unit_test(test_gates),   cmocka_unit_test(test_bad),
+                                       cmocka_unit_test(test_progress)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);

@@ -10,8 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many blocks are dealt in a round. */
+/* How many blocks are dealt in a round, and made before it is told how many are. */
 #define MOST_DEALT 1024
+#define MOST_MADE  256
 
 struct packed_block {
     uint32_t index;
@@ -25,7 +26,7 @@ struct block_share {
     const pir_block_work *work;
     atomic_int failure; /* of keeping what is made: a status */
     /* with other processes: blocks of the round that this one looks for or makes, their bytes and statuses */
-    uint32_t *index, count;
+    uint32_t *index, count, first; /* alone: the first of some that are made before it is told */
     pir_bytes *block;
     pir_status *status;
 };
@@ -35,8 +36,9 @@ static void fail(struct block_share *share, pir_status status) {
         atomic_store(&share->failure, (int)status);
 }
 
-static void make_one(void *context, uint32_t index) {
+static void make_one(void *context, uint32_t i) {
     struct block_share *share = context;
+    const uint32_t index = share->first + i;
     const pir_block_work *work = share->work;
     const pir_allocator a = pir_allocator_or_default(NULL);
     pir_block_journal *journal = work->number ? share->makers->journal : NULL;
@@ -50,6 +52,10 @@ static void make_one(void *context, uint32_t index) {
              work->pack(work->data, index, &block) ? pir_block_journal_add(journal, number, &block) : PIR_ERR_MEMORY);
     }
     pir_bytes_finish(&block, &a);
+}
+
+static pir_status tell(const pir_block_work *work, uint32_t done) {
+    return !work->tell || work->tell(work->data, done) ? PIR_OK : PIR_ERR_LIMIT;
 }
 
 /* --- with other processes --- */
@@ -188,8 +194,12 @@ static pir_status make_dealt_blocks(struct block_share *share) {
     share->block = calloc(most + 1, sizeof *share->block);
     share->status = calloc(most + 1, sizeof *share->status);
     pir_status status = share->index && share->block && share->status ? PIR_OK : PIR_ERR_MEMORY;
-    for (uint32_t i = 0; i < all && status == PIR_OK; i += MOST_DEALT)
-        status = make_round(share, i, all - i < MOST_DEALT ? all - i : MOST_DEALT);
+    for (uint32_t i = 0; i < all && status == PIR_OK; i += MOST_DEALT) {
+        const uint32_t count = all - i < MOST_DEALT ? all - i : MOST_DEALT;
+        status = make_round(share, i, count);
+        if (status == PIR_OK)
+            status = tell(share->work, i + count);
+    }
     for (uint32_t i = 0; i < most && share->block; i++)
         pir_bytes_finish(&share->block[i], &a);
     free(share->index);
@@ -203,7 +213,17 @@ pir_status pir_blocks_make(const pir_block_makers *makers, const pir_block_work 
     atomic_init(&share.failure, PIR_OK);
     if (makers->ranks && makers->ranks->count > 1)
         return make_dealt_blocks(&share);
-    makers->tasks.start(makers->tasks.context, make_one, &share, work->count);
-    makers->tasks.finish(makers->tasks.context);
-    return (pir_status)atomic_load(&share.failure);
+    const uint32_t most = work->tell ? MOST_MADE : UINT32_MAX;
+    pir_status status = PIR_OK;
+    for (uint32_t left = work->count; left > 0 && status == PIR_OK;) {
+        const uint32_t count = left < most ? left : most;
+        makers->tasks.start(makers->tasks.context, make_one, &share, count);
+        makers->tasks.finish(makers->tasks.context);
+        share.first += count;
+        left -= count;
+        status = (pir_status)atomic_load(&share.failure);
+        if (status == PIR_OK)
+            status = tell(work, share.first);
+    }
+    return status;
 }

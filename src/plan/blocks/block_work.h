@@ -31,9 +31,13 @@ typedef struct pir_block_work {
     bool (*pack)(void *data, uint32_t index, pir_bytes *block);
     /* Takes one that was made with a status: of bytes, which may be anything. False where they are no block. */
     bool (*take)(void *data, uint32_t index, pir_status status, const pir_bytes *block);
+    bool (*tell)(void *data, uint32_t done); /* NULL, or told how many are made; false ends the work */
 } pir_block_work;
 
-/* Makes all. Errors: PIR_ERR_FILE, PIR_ERR_MEMORY, PIR_ERR_FORMAT (of an exchange). */
+/*
+ * Makes all. Errors: PIR_ERR_LIMIT (where `tell` ended it), PIR_ERR_FILE, PIR_ERR_MEMORY, PIR_ERR_FORMAT (of an
+ * exchange).
+ */
 pir_status pir_blocks_make(const pir_block_makers *makers, const pir_block_work *work);
 
 #endif

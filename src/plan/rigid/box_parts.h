@@ -21,6 +21,8 @@ typedef struct pir_rigid_question {
     uint32_t most_boxes;                             /* of rotations */
     uint32_t most_parts;                             /* of the boxes of one division */
     size_t memory;                                   /* of one division, and of all parts that are kept */
+    bool (*progress)(void *context, uint32_t made, uint32_t written); /* NULL, or told of boxes; false ends it */
+    void *context;
 } pir_rigid_question;
 
 typedef struct pir_box_division {

@@ -125,6 +125,12 @@ static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
     return pir_box_parts_pack(&new_leaf(data, index)->inner, block);
 }
 
+static bool tell_leaves(void *data, uint32_t done) {
+    const pir_rigid_job *job = data;
+    const pir_rigid_question *q = job->question;
+    return !q->progress || q->progress(q->context, job->alive - (job->leaves - job->first_new - done), 0);
+}
+
 static bool take_leaf(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
     pir_rigid_leaf *leaf = new_leaf(data, index);
     leaf->status = status;
@@ -248,7 +254,7 @@ static void count_parts(pir_rigid_job *job, const pir_box_parts *parts) {
 void pir_rigid_boxes_make(pir_rigid_job *job) {
     const uint32_t count = job->leaves - job->first_new;
     const pir_tasks tasks = job->makers->tasks;
-    const pir_block_work work = {job, count, leaf_number, make_leaf, pack_leaf, take_leaf};
+    const pir_block_work work = {job, count, leaf_number, make_leaf, pack_leaf, take_leaf, tell_leaves};
     job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
         job->status = job->leaf[i].status;
@@ -263,7 +269,7 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
 }
 
 void pir_rigid_boxes_fill(pir_rigid_job *job) {
-    const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle};
+    const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle, NULL};
     job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
         job->status = job->leaf[job->list[i]].status;

@@ -81,7 +81,9 @@ static void fill_question(struct rigid_call *t) {
                                        .rotation = {scaled(in->from.rotation), scaled(in->to.rotation)},
                                        .most_boxes = t->how.boxes,
                                        .most_parts = t->how.parts,
-                                       .memory = t->how.memory};
+                                       .memory = t->how.memory,
+                                       .progress = t->how.progress,
+                                       .context = t->how.context};
 }
 
 /* Whether both ends are free. */

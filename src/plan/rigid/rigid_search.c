@@ -230,8 +230,9 @@ static bool take_round(pir_rigid_job *job, FILE *proof, pir_rigid_result *result
     if (job->status == PIR_OK)
         pir_rigid_boxes_join(job);
     if (job->status == PIR_OK && is_cut(job, &root)) {
-        result->answer = PIR_TURN_PLAN_NO_PATH;
         job->status = proof ? pir_rigid_write(job, root, proof) : PIR_OK;
+        if (job->status == PIR_OK)
+            result->answer = PIR_TURN_PLAN_NO_PATH;
         return true;
     }
     if (job->status == PIR_OK)

@@ -26,7 +26,7 @@ struct box_text {
 
 struct box_texts {
     const pir_rigid_job *job; /* where each node has its root at once */
-    uint32_t start;
+    uint32_t start, written;  /* boxes */
     struct box_text at[MOST_TEXTS];
 };
 
@@ -145,6 +145,13 @@ static bool take_text(void *data, uint32_t index, pir_status status, const pir_b
     return true;
 }
 
+static bool tell_texts(void *data, uint32_t done) {
+    struct box_texts *texts = data;
+    const pir_rigid_question *q = texts->job->question;
+    texts->written += done;
+    return !q->progress || q->progress(q->context, texts->job->alive, texts->written);
+}
+
 /* Writes boxes, from one on: as many as are written at a time. */
 static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) {
     const pir_rigid_job *job = texts->job;
@@ -153,7 +160,7 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
     for (; *leaf < job->leaves && count < MOST_TEXTS; ++*leaf)
         if (!job->leaf[*leaf].is_divided)
             texts->at[count++] = (struct box_text){.leaf = *leaf};
-    const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text};
+    const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text, tell_texts};
     pir_status status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = 0; i < count; i++) {
         struct box_text *own = &texts->at[i];
