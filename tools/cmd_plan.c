@@ -150,7 +150,7 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
 }
 
 /* Options that only plans by any motion have. */
-static const char *const of_motions[] = {"--boxes", "--memory", "--threads", "--resume"};
+static const char *const of_motions[] = {"--boxes", "--memory", "--threads", "--resume", "--dry-run"};
 
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
@@ -242,6 +242,10 @@ static bool load(struct plan_run *run) {
     run->input.robot_count = run->of_robot;
     run->input.obstacles = all + run->of_robot;
     run->input.obstacle_count = run->count - run->of_robot;
+    run->motions.robot = run->input.robot;
+    run->motions.robot_count = run->input.robot_count;
+    run->motions.obstacles = run->input.obstacles;
+    run->motions.obstacle_count = run->input.obstacle_count;
     return true;
 }
 
@@ -593,6 +597,43 @@ static bool on_progress(void *context, uint32_t made, uint32_t written) {
     return true;
 }
 
+static bool end_at_once(void *context, uint32_t made, uint32_t written) {
+    (void)context;
+    (void)made;
+    (void)written;
+    return false;
+}
+
+/* Makes the first boxes alone, and tells what as many as may be would take, were all like these. */
+static int foresee(struct plan_run *run) {
+    pir_rigid_plan_options how = run->how;
+    pir_rigid_plan_info info;
+    pir_rigid_plan *plan = NULL;
+    how.progress = end_at_once;
+    how.report = &run->report;
+    const int64_t start = clock_now();
+    const pir_status status = pir_rigid_plan_create(&run->motions, &how, &plan);
+    if (status != PIR_OK)
+        return complain_status("plan", status, &run->report);
+    pir_rigid_plan_describe(plan, &info);
+    pir_rigid_plan_destroy(plan);
+    const double seconds = (double)(clock_now() - start) / 1e9 / info.boxes * how.boxes;
+    if (args_has(run->args, "--json")) {
+        struct json json = json_new();
+        json_add_count(&json, json.root, "robot_pieces", info.robot_pieces);
+        json_add_count(&json, json.root, "obstacle_pieces", info.obstacle_pieces);
+        json_add_count(&json, json.root, "boxes", how.boxes);
+        json_add_number(&json, json.root, "seconds", seconds);
+        return json_print(&json, stdout) ? EXIT_DONE : EXIT_BAD_INPUT;
+    }
+    char time[TEXT_NUMBER];
+    text_time(seconds * 1e9, time);
+    say("a plan by any motion, for closed bodies\n");
+    say("  %-10s %" PRIu32 " by %" PRIu32 "\n", "pieces", info.robot_pieces, info.obstacle_pieces);
+    say("  %-10s %" PRIu32 " of rotations at most, in about %s\n", "boxes", how.boxes, time);
+    return EXIT_DONE;
+}
+
 /* Plans with neither --axis nor --translate-only. */
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
@@ -610,10 +651,6 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     run->how.context = run;
     run->how.report = &run->report;
     run->how.proof = proof_file(run, file);
-    run->motions.robot = run->input.robot;
-    run->motions.robot_count = run->input.robot_count;
-    run->motions.obstacles = run->input.obstacles;
-    run->motions.obstacle_count = run->input.obstacle_count;
     const int64_t start = clock_now();
     const pir_status status = pir_rigid_plan_create(&run->motions, &run->how, &plan);
     run->seconds = (double)(clock_now() - start) / 1e9;
@@ -640,8 +677,12 @@ int plan_by(const struct args *args, const pir_plan_ranks *ranks) {
         path = "/dev/null";
     pir_path_plan *plan = NULL;
     int result = EXIT_BAD_INPUT;
-    bool good = read_options(&run) && load(&run) && (!path || output_open(&file, path)) && open_page(&run);
-    if (good && args_has(args, "--axis")) {
+    bool good = read_options(&run) && load(&run);
+    const bool is_dry = good && args_has(args, "--dry-run");
+    good = good && !is_dry && (!path || output_open(&file, path)) && open_page(&run);
+    if (is_dry) {
+        result = is_first ? foresee(&run) : EXIT_DONE;
+    } else if (good && args_has(args, "--axis")) {
         result = plan_turns(&run, &file);
     } else if (good && !args_has(args, "--translate-only")) {
         result = plan_motions(&run, &file);
