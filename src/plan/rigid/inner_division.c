@@ -16,6 +16,7 @@
 
 struct sum_choice {
     const pir_rigid_question *question;
+    bool is_thick; /* whether all sums are made, where some part the ends */
     pir_inner_search *search;
     pir_plan_pieces *sums;
     pir_box_division *division;
@@ -220,7 +221,7 @@ static pir_status choose(struct sum_choice *c) {
         if (cell[0] == PIR_PLAN_NONE || cell[1] == PIR_PLAN_NONE)
             return add_all(c);
         if (c->division->joints.root[cell[0]] != c->division->joints.root[cell[1]])
-            return thicken(c);
+            return c->is_thick ? add_all(c) : thicken(c);
         status = look_at_way(c, cell);
         if (status != PIR_OK || c->best == PIR_PLAN_NONE)
             break;
@@ -231,11 +232,12 @@ static pir_status choose(struct sum_choice *c) {
     return status;
 }
 
-pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns,
+pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns, bool is_thick,
                                    pir_plan_pieces *ret_sums, pir_box_division *ret_division) {
     pir_plan_space *space = &ret_division->space;
     const uint32_t pairs = question->robot->count * question->wide->count;
     struct sum_choice c = {.question = question,
+                           .is_thick = is_thick,
                            .sums = ret_sums,
                            .division = ret_division,
                            .pairs = pairs,

@@ -15,7 +15,7 @@
 #include "plan/turn_bodies.h"
 
 /* Makes sums and divides by them; both are to be freed, also where it fails. `body` of a sum is its pair of pieces. */
-pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns,
+pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns, bool is_thick,
                                    pir_plan_pieces *ret_sums, pir_box_division *ret_division);
 
 #endif

@@ -76,19 +76,15 @@ static void free_links(pir_rigid_leaf *leaf) {
     leaf->touches = leaf->room = 0;
 }
 
-void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
-    const uint32_t first = job->leaves;
-    const pir_rotation_box box = job->leaf[leaf].box;
-    for (uint32_t i = 0; i < 8; i++)
-        add_leaf(job, pir_rotation_box_child(box, i), leaf);
+/* Has the leaves from one on stand for another, which they are parts of. */
+static void replace(pir_rigid_job *job, uint32_t leaf, uint32_t first) {
     for (uint32_t t = 0; t < job->leaf[leaf].touches && job->status == PIR_OK; t++) {
         const uint32_t other = job->leaf[leaf].touch[t].other;
         drop_touch(&job->leaf[other], leaf);
-        for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
+        for (uint32_t i = 0; first + i < job->leaves && job->status == PIR_OK; i++)
             touch_both(job, first + i, other);
     }
-    // eighths share the middle
-    for (uint32_t i = 0; i < 8 && job->status == PIR_OK; i++)
+    for (uint32_t i = 0; first + i < job->leaves && job->status == PIR_OK; i++)
         for (uint32_t k = 0; k < i; k++)
             touch_both(job, first + i, first + k);
     pir_rigid_leaf *old = &job->leaf[leaf];
@@ -99,10 +95,46 @@ void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
     job->alive--;
 }
 
+void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
+    const uint32_t first = job->leaves;
+    const pir_rotation_box box = job->leaf[leaf].box;
+    for (uint32_t i = 0; i < 8; i++)
+        add_leaf(job, pir_rotation_box_child(box, i), leaf);
+    replace(job, leaf, first);
+}
+
+void pir_rigid_box_thicken(pir_rigid_job *job, uint32_t leaf) {
+    const uint32_t made = add_leaf(job, job->leaf[leaf].box, job->leaf[leaf].parent);
+    if (made == PIR_PLAN_NONE)
+        return;
+    pir_rigid_leaf *own = &job->leaf[made], *old = &job->leaf[leaf];
+    own->is_thick = true;
+    own->is_full = old->is_full;
+    own->middle = old->middle;
+    own->hub = old->hub;
+    own->hubs = old->hubs;
+    own->hub_room = old->hub_room;
+    old->middle = (pir_box_parts){0};
+    old->hub = NULL;
+    old->hubs = old->hub_room = 0;
+    old->is_full = false;
+    replace(job, leaf, made);
+}
+
 /* --- parts --- */
 
+/* Whether a part has the translations of both ends, about, or one of these is blocked. */
+static bool is_open(const pir_rigid_question *question, const pir_box_parts *parts) {
+    uint32_t part[2] = {PIR_PLAN_NONE, PIR_PLAN_NONE};
+    for (uint32_t i = 0; i < parts->cells; i++)
+        for (int s = 0; s < 2; s++)
+            if (pir_box_cell_has(parts, &parts->cell[i], question->at[s]))
+                part[s] = parts->cell[i].part;
+    return part[0] == part[1] || part[0] == PIR_PLAN_NONE || part[1] == PIR_PLAN_NONE;
+}
+
 /* The blocks of a box. */
-enum box_block { INNER_BLOCK, MIDDLE_BLOCK };
+enum box_block { INNER_BLOCK, MIDDLE_BLOCK, THICK_BLOCK };
 
 static uint64_t block_number(pir_rotation_box box, enum box_block kind) {
     uint64_t number = (uint64_t)kind << 2 | box.chart;
@@ -118,7 +150,8 @@ static pir_rigid_leaf *new_leaf(void *data, uint32_t index) {
 }
 
 static uint64_t leaf_number(void *data, uint32_t index) {
-    return block_number(new_leaf(data, index)->box, INNER_BLOCK);
+    const pir_rigid_leaf *leaf = new_leaf(data, index);
+    return block_number(leaf->box, leaf->is_thick ? THICK_BLOCK : INNER_BLOCK);
 }
 
 static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
@@ -132,11 +165,13 @@ static bool tell_leaves(void *data, uint32_t done) {
 }
 
 static bool take_leaf(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
+    const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = new_leaf(data, index);
     leaf->status = status;
     const bool good = status != PIR_OK || pir_box_parts_unpack(block, &leaf->inner);
     if (!good)
         pir_box_parts_finish(&leaf->inner);
+    leaf->is_open = is_open(job->question, &leaf->inner);
     return good;
 }
 
@@ -146,9 +181,10 @@ static pir_status make_leaf(void *data, uint32_t index) {
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_plan_pieces sums;
     pir_box_division division;
-    leaf->status = pir_inner_division_make(job->question, &corners, &sums, &division);
+    leaf->status = pir_inner_division_make(job->question, &corners, leaf->is_thick, &sums, &division);
     if (leaf->status == PIR_OK)
         leaf->status = pir_box_parts_keep(&division, &leaf->inner);
+    leaf->is_open = leaf->status == PIR_OK && is_open(job->question, &leaf->inner);
     pir_box_division_finish(&division);
     pir_plan_pieces_over_free(&sums);
     return leaf->status;

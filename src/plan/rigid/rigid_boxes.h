@@ -16,6 +16,9 @@ void pir_rigid_boxes_begin(pir_rigid_job *job);
 /* Replaces a leaf by its halves. */
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
 
+/* Replaces a leaf by one of all sums, which takes its hubs. */
+void pir_rigid_box_thicken(pir_rigid_job *job, uint32_t leaf);
+
 /* Makes the inner parts of all leaves that are new, and the links between them and others. */
 void pir_rigid_boxes_make(pir_rigid_job *job);
 

@@ -108,16 +108,22 @@ static bool add_number(pir_rigid_job *job) {
     return true;
 }
 
-/* A new hub of a leaf; which part of the inner ones it is in is a choice that doubles make. */
+/* Which part of the inner ones a hub is in is a choice that doubles make. */
+static void place_hub(const pir_rigid_leaf *own, pir_rigid_hub *hub) {
+    hub->in = PIR_PLAN_NONE;
+    for (uint32_t i = 0; i < own->inner.cells && hub->in == PIR_PLAN_NONE; i++)
+        if (pir_box_cell_has(&own->inner, &own->inner.cell[i], hub->at))
+            hub->in = own->inner.cell[i].part;
+}
+
+/* A new hub of a leaf. */
 static pir_rigid_hub *add_hub(pir_rigid_job *job, uint32_t leaf, const double at[3]) {
     pir_rigid_leaf *own = &job->leaf[leaf];
     if (!pir_rigid_grow(job, (void **)&own->hub, &own->hub_room, own->hubs + 1, sizeof *own->hub) || !add_number(job))
         return NULL;
     pir_rigid_hub *hub = &own->hub[own->hubs++];
     *hub = (pir_rigid_hub){{at[0], at[1], at[2]}, job->hubs - 1, PIR_PLAN_NONE};
-    for (uint32_t i = 0; i < own->inner.cells && hub->in == PIR_PLAN_NONE; i++)
-        if (pir_box_cell_has(&own->inner, &own->inner.cell[i], at))
-            hub->in = own->inner.cell[i].part;
+    place_hub(own, hub);
     return hub;
 }
 
@@ -249,6 +255,9 @@ void pir_rigid_hubs_begin(pir_rigid_job *job) {
 }
 
 void pir_rigid_hubs_inherit(pir_rigid_job *job) {
+    for (uint32_t i = job->first_new; i < job->leaves; i++)
+        for (uint32_t h = 0; h < job->leaf[i].hubs; h++)
+            place_hub(&job->leaf[i], &job->leaf[i].hub[h]);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++)
         if (job->leaf[i].parent != PIR_PLAN_NONE)
             take_hubs(job, i, job->leaf[i].parent);

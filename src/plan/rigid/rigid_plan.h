@@ -47,6 +47,7 @@ typedef struct pir_rigid_hub {
 typedef struct pir_rigid_leaf {
     pir_rotation_box box;
     bool is_divided, is_full; /* whether the parts at the middle are known: the first hubs are these */
+    bool is_open, is_thick;   /* whether inner sums leave a way between the ends; whether all are made */
     uint32_t parent;          /* PIR_PLAN_NONE of roots */
     pir_box_parts inner;      /* for inner sums */
     pir_box_parts middle;     /* at the middle, where it is full */

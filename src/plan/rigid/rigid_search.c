@@ -167,12 +167,20 @@ static void list_doubted(pir_rigid_job *job) {
     free(is_doubted);
 }
 
-/* Divides listed boxes as far as the budget goes; how many. */
+/* Whether a box may block more without being divided: more sums are less than eight boxes. */
+static bool is_thin(const pir_rigid_leaf *leaf) {
+    return !leaf->is_open && !leaf->is_thick;
+}
+
+/* Divides listed boxes as far as the budget goes, or has them block more; how many. */
 static uint32_t divide(pir_rigid_job *job) {
     uint32_t count = 0;
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
-        if (job->alive + 7 <= job->question->most_boxes) {
+        if (is_thin(&job->leaf[job->list[i]])) {
+            pir_rigid_box_thicken(job, job->list[i]);
+            count++;
+        } else if (job->alive + 7 <= job->question->most_boxes) {
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
@@ -184,7 +192,7 @@ static uint32_t keep_unknown(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (!leaf->is_full)
+        if (!leaf->is_full && !is_thin(leaf))
             kept[count++] = job->list[i];
     }
     return count;
@@ -259,7 +267,7 @@ pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_
     while (job.status == PIR_OK && !take_round(&job, proof, ret_result))
         continue;
     ret_result->boxes = job.alive;
-    ret_result->divided = job.leaves - job.alive;
+    ret_result->divided = (job.alive - PIR_ROTATION_ROOTS) / 7;
     ret_result->parts = job.parts;
     pir_rigid_hubs_finish(&job);
     pir_rigid_boxes_finish(&job);
