@@ -188,6 +188,20 @@ static void test_tight(void **state) {
     release_gate(&g);
 }
 
+/* A window that each of the first boxes closes, but not all together: some take all their sums, some are divided. */
+static void test_disagreement(void **state) {
+    (void)state;
+    pir_rigid_plan_info info[2];
+    struct gate g;
+    g.robot = make_tetrahedron(16, &g.shape);
+    make_wall(3.8, 3.8, 17, &g);
+    assert_int_equal(ask(&g, 200, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(ask(&g, 200, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
+    assert_true(is_same(&info[0], &info[1], sizeof info[0]));
+    assert_int_equal(info[0].boxes, 32 + 7 * info[0].divided);
+    release_gate(&g);
+}
+
 static void test_budget(void **state) {
     (void)state;
     pir_rigid_plan_info info;
@@ -359,10 +373,10 @@ static int write_proof(const char *path) {
 int main(int count, char **words) {
     if (count == 2)
         return write_proof(words[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),    cmocka_unit_test(test_slot),
-                                       cmocka_unit_test(test_tight),   cmocka_unit_test(test_budget),
-                                       cmocka_unit_test(test_gates),   cmocka_unit_test(test_bad),
-                                       cmocka_unit_test(test_progress)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),   cmocka_unit_test(test_slot),
+                                       cmocka_unit_test(test_tight),  cmocka_unit_test(test_disagreement),
+                                       cmocka_unit_test(test_budget), cmocka_unit_test(test_gates),
+                                       cmocka_unit_test(test_bad),    cmocka_unit_test(test_progress)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);

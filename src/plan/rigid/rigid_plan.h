@@ -15,7 +15,9 @@
  *
  * Else boxes are divided where that may decide. Free parts of boxes are nodes of a graph, of which hubs tell that some
  * can be reached from the start, others from the end. Nodes on shortest ways from the first to the second are doubted:
- * a path may lead through them, or they are too large. Their boxes are halved, and only new boxes are looked at.
+ * a path may lead through them, or they block too little. A box whose inner sums part the ends, but not all of which
+ * are made, takes all first: that costs less than its eighths, and its neighbours then agree with it more often. Other
+ * boxes are halved. Only new boxes are looked at.
  *
  * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
  * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.
