@@ -16,7 +16,7 @@
 
 struct sum_choice {
     const pir_rigid_question *question;
-    bool is_thick; /* whether all sums are made, where some part the ends */
+    bool is_thick; /* whether all sums are made */
     pir_inner_search *search;
     pir_plan_pieces *sums;
     pir_box_division *division;
@@ -212,6 +212,8 @@ static pir_status add_all(struct sum_choice *c) {
 
 static pir_status choose(struct sum_choice *c) {
     pir_status status = pir_box_division_add(c->question, c->sums, 0, c->division);
+    if (c->is_thick && status == PIR_OK)
+        return add_all(c);
     while (status == PIR_OK) {
         const uint32_t first = c->sums->count;
         status = pir_box_division_join(false, c->division);
@@ -221,7 +223,7 @@ static pir_status choose(struct sum_choice *c) {
         if (cell[0] == PIR_PLAN_NONE || cell[1] == PIR_PLAN_NONE)
             return add_all(c);
         if (c->division->joints.root[cell[0]] != c->division->joints.root[cell[1]])
-            return c->is_thick ? add_all(c) : thicken(c);
+            return thicken(c);
         status = look_at_way(c, cell);
         if (status != PIR_OK || c->best == PIR_PLAN_NONE)
             break;

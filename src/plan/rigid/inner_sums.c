@@ -210,8 +210,10 @@ static bool facet_has(struct sum_search *q, uint32_t facet, uint32_t o, pir_vec3
         const pir_vec3 way = pir_vec_along(x, -1, q->o[o]), *n = &q->robot->back[facet * (q->forms->count + 1)];
         const double most = q->robot->d[facet] - q->kept;
         *known = pir_vec_dot(n[q->forms->count], way) <= most;
+        int beyond = 0;
         for (int k = 0; k < q->forms->count && *known; k++)
-            *known = pir_vec_dot(n[k], way) <= most;
+            beyond += !(pir_vec_dot(n[k], way) <= most);
+        *known = *known && beyond == 0;
     }
     return *known;
 }
@@ -598,14 +600,14 @@ double pir_inner_depth(const pir_inner_search *search, uint32_t pair, const doub
         const pir_vec3 n = r->back[a * (middle + 1) + middle];
         double most = -INFINITY;
         for (uint32_t o = 0; o < b->vertices; o++)
-            most = fmax(most, pir_vec_dot(n, b->v[o]));
-        least = fmin(least, r->d[a] + most - pir_vec_dot(n, x));
+            most = pir_greater(most, pir_vec_dot(n, b->v[o]));
+        least = pir_lesser(least, r->d[a] + most - pir_vec_dot(n, x));
     }
     for (uint32_t j = 0; j < b->facets && least > 0; j++) {
         double most = -INFINITY;
         for (uint32_t p = 0; p < r->vertices; p++)
-            most = fmax(most, -pir_vec_dot(b->n[j], r->turned_point[p * (middle + 1) + middle]));
-        least = fmin(least, b->d[j] + most - pir_vec_dot(b->n[j], x));
+            most = pir_greater(most, -pir_vec_dot(b->n[j], r->turned_point[p * (middle + 1) + middle]));
+        least = pir_lesser(least, b->d[j] + most - pir_vec_dot(b->n[j], x));
     }
     return least;
 }
