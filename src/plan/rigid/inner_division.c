@@ -10,9 +10,8 @@
 /* Into how many parts a piece of a way is divided for points that are looked at. */
 #define STEPS 8
 
-/* How many points about a deepest one are looked at, and which part of all a sum is to have of its own. */
-#define NEARS      48
-#define LEAST_PART 0.01
+/* How many points about a deepest one are looked at. */
+#define NEARS 100
 
 struct sum_choice {
     const pir_rigid_question *question;
@@ -179,7 +178,7 @@ static pir_status thicken(struct sum_choice *c) {
         uint32_t best = 0;
         for (uint32_t p = 1; p < c->pairs; p++)
             best = count[p] > count[best] ? p : best;
-        if (count[best] <= c->nears * LEAST_PART)
+        if (count[best] == 0)
             break;
         status = make_sum(c, best);
         for (uint32_t i = 0; i < c->nears; i++)

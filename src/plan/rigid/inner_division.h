@@ -4,7 +4,7 @@
  *
  * Inner sums are made and added one by one. While the translations of the two ends are connected there is a way
  * between them, and the next is the inner sum that has the way's deepest point. Then those are added that have most
- * points near these deepest ones, until few are left: boxes that share rotations are to block the same. So a box in
+ * points near these deepest ones, until none is left: boxes that share rotations are to block the same. So a box in
  * which few pieces part the ends has few sums. Where no sum is left that has a point of the way the box is too
  * large, and nothing more is added; where a sum has an end, all are. A thick box has all at once.
  */
