@@ -11,7 +11,7 @@
 #define STEPS 8
 
 /* How many points about a deepest one are looked at. */
-#define NEARS 100
+#define NEARS 48
 
 struct sum_choice {
     const pir_rigid_question *question;
