@@ -4,12 +4,16 @@
 
 #include <string.h>
 
+/* A pair of which more signs have changed is listed from nothing. */
+#define NOTED_MOST 16
+
 struct pair_lister {
     pir_kept_pairs *pairs;
     pir_space *space;
     const pir_convexes *c[2];
     const pir_convex *piece[2];
-    uint32_t count; /* of keys so far */
+    uint32_t count;   /* of keys so far */
+    uint32_t touched; /* of keys that are to be looked at again */
 };
 
 static void push_key(struct pair_lister *l, pir_sum_facet_key key) {
@@ -51,22 +55,27 @@ static uint32_t farthest(struct pair_lister *l, int k, uint32_t normal) {
     return c->vertex[piece->vertex + at];
 }
 
-static void list_crossings(struct pair_lister *l) {
+/* Lists a face of piece k, with its vertex of the other. */
+static void list_face(struct pair_lister *l, int k, uint32_t f) {
+    push_key(l, (pir_sum_facet_key){(uint32_t)k, f, farthest(l, 1 - k, l->c[k]->face[f].normal), false});
+}
+
+/* Lists two edges, if their arcs cross. */
+static void list_crossing(struct pair_lister *l, uint32_t i, uint32_t j) {
     const pir_sign_table *table = l->pairs->table;
-    const pir_convex *p = l->piece[0], *q = l->piece[1];
-    for (uint32_t i = p->edge; i < p->edge + p->edge_count; i++)
-        for (uint32_t j = q->edge; j < q->edge + q->edge_count; j++) {
-            const int right = pir_arcs_cross(table->half, &table->piece_edge[0][i], &table->piece_edge[1][j]);
-            if (right != 0)
-                push_key(l, (pir_sum_facet_key){2, i, j, right < 0});
-        }
+    const int right = pir_arcs_cross(table->half, &table->piece_edge[0][i], &table->piece_edge[1][j]);
+    if (right != 0)
+        push_key(l, (pir_sum_facet_key){2, i, j, right < 0});
 }
 
 static void list_keys(struct pair_lister *l) {
+    const pir_convex *p = l->piece[0], *q = l->piece[1];
     for (int k = 0; k < 2; k++)
         for (uint32_t f = l->piece[k]->face; f < l->piece[k]->face + l->piece[k]->face_count; f++)
-            push_key(l, (pir_sum_facet_key){(uint32_t)k, f, farthest(l, 1 - k, l->c[k]->face[f].normal), false});
-    list_crossings(l);
+            list_face(l, k, f);
+    for (uint32_t i = p->edge; i < p->edge + p->edge_count; i++)
+        for (uint32_t j = q->edge; j < q->edge + q->edge_count; j++)
+            list_crossing(l, i, j);
 }
 
 static uint32_t make_plane(struct pair_lister *l, pir_sum_facet_key key) {
@@ -85,6 +94,60 @@ static bool comes_before(pir_sum_facet_key a, pir_sum_facet_key b) {
     if (a.kind != b.kind)
         return a.kind < b.kind;
     return a.a != b.a ? a.a < b.a : a.kind == 2 && a.b < b.b;
+}
+
+/* Puts a key among those that are to be looked at again, in the order of lists, once. */
+static void touch(struct pair_lister *l, pir_sum_facet_key key) {
+    pir_kept_pairs *pairs = l->pairs;
+    if (!pir_space_grow(l->space, (void **)&pairs->touched, &pairs->touched_room, l->touched, sizeof *pairs->touched))
+        return;
+    uint32_t at = l->touched;
+    while (at > 0 && comes_before(key, pairs->touched[at - 1]))
+        at--;
+    if (at > 0 && !comes_before(pairs->touched[at - 1], key))
+        return;
+    memmove(pairs->touched + at + 1, pairs->touched + at, (l->touched - at) * sizeof *pairs->touched);
+    pairs->touched[at] = key;
+    l->touched++;
+}
+
+/* Touches what rests on a sign, of edges of piece k with normals of the other: faces along the normal, and each edge
+ * with those beside such a face. */
+static void touch_changed(struct pair_lister *l, pir_sign_change change) {
+    const pir_sign_table *table = l->pairs->table;
+    const int k = (int)change.half, o = 1 - k;
+    const pir_convex *p = l->piece[k], *q = l->piece[o];
+    for (uint32_t f = q->face; f < q->face + q->face_count; f++)
+        if (table->half[k].column_of[l->c[o]->face[f].normal] >> 1 == change.column)
+            touch(l, (pir_sum_facet_key){(uint32_t)o, f, 0, false});
+    for (uint32_t e = p->edge; e < p->edge + p->edge_count; e++) {
+        if (table->piece_edge[k][e].row >> 1 != change.row)
+            continue;
+        for (uint32_t g = q->edge; g < q->edge + q->edge_count; g++)
+            if (table->piece_edge[o][g].left >> 1 == change.column ||
+                table->piece_edge[o][g].right >> 1 == change.column)
+                touch(l, (pir_sum_facet_key){2, k == 0 ? e : g, k == 0 ? g : e, false});
+    }
+}
+
+/* Lists the keys that a pair has, but for those that rest on signs which have changed: these are listed anew. */
+static void amend_keys(struct pair_lister *l, const pir_kept_pair_sum *pair) {
+    const pir_kept_pairs *pairs = l->pairs;
+    for (uint32_t n = pair->noted; n > 0; n = pairs->note[n - 1].before)
+        touch_changed(l, pairs->table->change[pairs->note[n - 1].change]);
+    uint32_t old = 0;
+    for (uint32_t i = 0; i < l->touched && l->space->status == PIR_OK; i++) {
+        const pir_sum_facet_key key = pairs->touched[i];
+        for (; old < pair->count && comes_before(pair->key[old], key); old++)
+            push_key(l, pair->key[old]);
+        old += old < pair->count && !comes_before(key, pair->key[old]);
+        if (key.kind == 2)
+            list_crossing(l, key.a, key.b);
+        else
+            list_face(l, (int)key.kind, key.a);
+    }
+    for (; old < pair->count; old++)
+        push_key(l, pair->key[old]);
 }
 
 static void drop(pir_kept_pairs *pairs, pir_space *space, uint32_t plane) {
@@ -136,7 +199,11 @@ static void list_pair(pir_kept_pairs *pairs, uint32_t at) {
                                  .piece = {&table->convexes[0].convex[at / l], &table->convexes[1].convex[at % l]}};
     pir_kept_pair_sum *pair = &pairs->pair[at];
     const uint32_t added = pairs->added_count, dropped = pairs->dropped_count;
-    list_keys(&lister);
+    if (pair->noted > 0 && pair->noted_count <= NOTED_MOST)
+        amend_keys(&lister, pair);
+    else
+        list_keys(&lister);
+    pair->noted = pair->noted_count = 0;
     match(&lister, pair);
     if (!pir_space_grow(table->space, (void **)&pair->key, &pair->room, lister.count, sizeof *pair->key) ||
         !pir_space_grow(table->space, (void **)&pair->plane, &pair->plane_room, lister.count, sizeof *pair->plane))
@@ -193,34 +260,42 @@ void pir_kept_pairs_finish(pir_kept_pairs *pairs) {
     pir_space_shrink(space, pairs->dropped, pairs->dropped_room, sizeof *pairs->dropped);
     pir_space_shrink(space, pairs->is_dropped, pairs->is_dropped_room, sizeof *pairs->is_dropped);
     pir_space_shrink(space, pairs->key, pairs->key_room, sizeof *pairs->key);
+    pir_space_shrink(space, pairs->touched, pairs->touched_room, sizeof *pairs->touched);
+    pir_space_shrink(space, pairs->note, pairs->note_room, sizeof *pairs->note);
     pir_space_shrink(space, pairs->plane, pairs->plane_room, sizeof *pairs->plane);
     pir_space_shrink(space, pairs->below, pairs->below_room, sizeof *pairs->below);
     *pairs = (pir_kept_pairs){0};
 }
 
-/* Notes the pairs that a sign is of, each once; those noted in this frame have UINT32_MAX for new planes. */
-static void note_change(pir_kept_pairs *pairs, pir_sign_change change) {
+/* Notes a sign with the pairs that it is of. */
+static void note_change(pir_kept_pairs *pairs, uint32_t number) {
     const pir_sign_table *table = pairs->table;
+    const pir_sign_change change = table->change[number];
     const pir_sign_half *half = &table->half[change.half];
     const pir_list_of_lists *rows = &half->row_pieces, *columns = &half->column_pieces;
     for (uint32_t i = rows->start[change.row]; i < rows->start[change.row + 1]; i++)
         for (uint32_t j = columns->start[change.column]; j < columns->start[change.column + 1]; j++) {
             const uint32_t a = rows->entry[i], b = columns->entry[j];
             const uint32_t at = change.half == 0 ? a * table->convexes[1].count + b : b * table->convexes[1].count + a;
-            if (pairs->pair[at].new_count == UINT32_MAX ||
-                !pir_space_grow(table->space, (void **)&pairs->changed, &pairs->changed_room, pairs->changed_count,
-                                sizeof *pairs->changed))
-                continue;
-            pairs->pair[at].new_count = UINT32_MAX;
-            pairs->changed[pairs->changed_count++] = at;
+            pir_kept_pair_sum *pair = &pairs->pair[at];
+            if (!pir_space_grow(table->space, (void **)&pairs->changed, &pairs->changed_room, pairs->changed_count,
+                                sizeof *pairs->changed) ||
+                !pir_space_grow(table->space, (void **)&pairs->note, &pairs->note_room, pairs->note_count,
+                                sizeof *pairs->note))
+                return;
+            if (pair->noted == 0)
+                pairs->changed[pairs->changed_count++] = at;
+            pairs->note[pairs->note_count++] = (pir_pair_note){number, pair->noted};
+            pair->noted = pairs->note_count;
+            pair->noted_count++;
         }
 }
 
 void pir_kept_pairs_update(pir_kept_pairs *pairs) {
     pir_sign_table *table = pairs->table;
-    pairs->changed_count = pairs->added_count = 0;
+    pairs->changed_count = pairs->added_count = pairs->note_count = 0;
     for (uint32_t i = 0; i < table->change_count; i++)
-        note_change(pairs, table->change[i]);
+        note_change(pairs, i);
     for (uint32_t i = 0; i < pairs->changed_count && table->space->status == PIR_OK; i++)
         list_pair(pairs, pairs->changed[i]);
 }

@@ -28,7 +28,13 @@ typedef struct pir_kept_pair_sum {
     uint32_t renewed;              /* the frame in which all planes had their doubles made */
     uint64_t met;                  /* the number of the facet's look round that came to it last */
     uint32_t first_new, new_count; /* of that frame, in `added` */
+    uint32_t noted, noted_count;   /* while signs are being looked through: the last one in `note` + 1, or 0 */
 } pir_kept_pair_sum;
+
+/* A sign of a pair that has changed, and the one noted before it + 1, or 0. */
+typedef struct pir_pair_note {
+    uint32_t change, before;
+} pir_pair_note;
 
 typedef struct pir_kept_pairs {
     pir_sign_table *table;
@@ -39,8 +45,10 @@ typedef struct pir_kept_pairs {
     uint32_t *dropped, dropped_count, dropped_room; /* likewise */
     uint8_t *is_dropped;                            /* per plane of the space */
     uint32_t is_dropped_room;
-    pir_sum_facet_key *key; /* scratch, as are the next */
-    uint32_t *plane, key_room, plane_room;
+    pir_sum_facet_key *key, *touched; /* scratch, as are the next */
+    uint32_t *plane, key_room, touched_room, plane_room;
+    pir_pair_note *note;
+    uint32_t note_count, note_room;
     uint32_t (*edge_at[2])[2]; /* per edge of the pieces of a body: the places of its ends among the piece's vertices */
     uint64_t looks;            /* of facets round themselves */
     uint8_t *below;            /* per vertex of a piece: whether an edge leads farther */

@@ -13,6 +13,9 @@
 #define SKIN_STEPS 16
 #define SKIN_MOST  .05
 
+/* All candidates are listed anew where more than so many may have changed. */
+#define TOUCHED_MOST 256
+
 /* --- the turn --- */
 
 pir_quat pir_quat_of_length_1(pir_quat q) {
@@ -95,6 +98,33 @@ static void list_lines(pir_kept_sum *kept, int k) {
     }
 }
 
+/* The order of candidates: by planes, and in one plane as they are made anew. */
+static int compare_planes(pir_candidate_key a, pir_candidate_key b) {
+    const uint32_t x[3] = {a.kind, a.plane[0], a.plane[1]}, y[3] = {b.kind, b.plane[0], b.plane[1]};
+    for (int k = 0; k < 3; k++)
+        if (x[k] != y[k])
+            return x[k] < y[k] ? -1 : 1;
+    return 0;
+}
+
+static bool key_before(pir_candidate_key a, pir_candidate_key b) {
+    const int by_plane = compare_planes(a, b);
+    if (by_plane != 0)
+        return by_plane < 0;
+    return a.a != b.a ? a.a < b.a : a.b < b.b;
+}
+
+/* The key of a facet of body k with a vertex of the other. */
+static pir_candidate_key key_at_vertex(const pir_kept_sum *kept, int k, uint32_t f, uint32_t v) {
+    const uint32_t first = first_in_plane(&kept->body[k], f);
+    return (pir_candidate_key){k == 0 ? PIR_FACET_OF_P : PIR_FACET_OF_Q, {first, v}, f, v, false};
+}
+
+/* The key of two edges. */
+static pir_candidate_key key_of_edges(const pir_kept_sum *kept, uint32_t i, uint32_t j) {
+    return (pir_candidate_key){PIR_TWO_EDGES, {kept->line[0][i], kept->line[1][j]}, i, j, false};
+}
+
 /* The vertices of the other body from which no edge leads above a facet of body k, for all facets. */
 static void list_at_vertices(pir_kept_sum *kept, int k) {
     const pir_shell_body *a = &kept->body[k], *b = &kept->body[1 - k];
@@ -107,7 +137,6 @@ static void list_at_vertices(pir_kept_sum *kept, int k) {
         if (a->group[f] != f)
             continue;
         const uint32_t column = half->column_of[kept->space->plane[a->plane[f]].direction[0]];
-        const uint32_t first = first_in_plane(a, f);
         memset(kept->below, 2, points);
         for (uint32_t e = 0; e < b->edge_count; e++) {
             const pir_shell_body_edge *edge = &b->edge[e];
@@ -118,36 +147,31 @@ static void list_at_vertices(pir_kept_sum *kept, int k) {
         }
         for (uint32_t v = 0; v < points; v++)
             if (kept->below[v] == 0)
-                push_key(kept, (pir_candidate_key){k == 0 ? PIR_FACET_OF_P : PIR_FACET_OF_Q, {first, v}, f, v, false});
+                push_key(kept, key_at_vertex(kept, k, f, v));
     }
+}
+
+/* Lists two convex edges, if their arcs cross. */
+static void list_crossing(pir_kept_sum *kept, pir_candidate_key key) {
+    const pir_sign_table *table = &kept->table;
+    const int right = pir_arcs_cross(table->half, &table->edge[0][key.a], &table->edge[1][key.b]);
+    if (right == 0)
+        return;
+    key.turned = right > 0;
+    push_key(kept, key);
 }
 
 static void list_edges(pir_kept_sum *kept) {
     const pir_shell_body *p = &kept->body[0], *q = &kept->body[1];
-    const pir_sign_table *table = &kept->table;
-    for (uint32_t i = 0; i < p->edge_count; i++) {
-        if (p->edge[i].bend != PIR_BEND_CONVEX)
-            continue;
-        for (uint32_t j = 0; j < q->edge_count; j++) {
-            const int right = pir_arcs_cross(table->half, &table->edge[0][i], &table->edge[1][j]);
-            if (right != 0 && q->edge[j].bend == PIR_BEND_CONVEX)
-                push_key(kept,
-                         (pir_candidate_key){PIR_TWO_EDGES, {kept->line[0][i], kept->line[1][j]}, i, j, right > 0});
-        }
-    }
+    for (uint32_t i = 0; i < p->edge_count; i++)
+        for (uint32_t j = 0; j < q->edge_count && p->edge[i].bend == PIR_BEND_CONVEX; j++)
+            if (q->edge[j].bend == PIR_BEND_CONVEX)
+                list_crossing(kept, key_of_edges(kept, i, j));
 }
 
-static int compare_planes(pir_candidate_key a, pir_candidate_key b) {
-    const uint32_t x[3] = {a.kind, a.plane[0], a.plane[1]}, y[3] = {b.kind, b.plane[0], b.plane[1]};
-    for (int k = 0; k < 3; k++)
-        if (x[k] != y[k])
-            return x[k] < y[k] ? -1 : 1;
-    return 0;
-}
-
-static bool plane_before(void *context, uint32_t a, uint32_t b) {
+static bool listed_before(void *context, uint32_t a, uint32_t b) {
     const pir_candidate_key *key = context;
-    return compare_planes(key[a], key[b]) < 0;
+    return key_before(key[a], key[b]);
 }
 
 /* Puts the numbers 0 .. count into `order`, sorted. */
@@ -185,33 +209,33 @@ static pir_plane_facet *new_facet(pir_kept_sum *kept) {
     return facet;
 }
 
-/* Gives a facet the candidates key[order[0 .. count)]; where those are others than it had, it is to be made anew. */
-static void set_keys(pir_kept_sum *kept, pir_plane_facet *facet, const uint32_t *order, uint32_t count) {
+/* Gives a facet candidates; where those are others than it had, it is to be made anew. */
+static void set_keys(pir_kept_sum *kept, pir_plane_facet *facet, const pir_candidate_key *key, uint32_t count) {
     bool same = facet->key_count == count;
     for (uint32_t i = 0; i < count && same; i++)
-        same = facet->key[i].a == kept->key[order[i]].a && facet->key[i].b == kept->key[order[i]].b &&
-               facet->key[i].turned == kept->key[order[i]].turned;
+        same = facet->key[i].a == key[i].a && facet->key[i].b == key[i].b && facet->key[i].turned == key[i].turned;
     if (same || !pir_space_grow(kept->space, (void **)&facet->key, &facet->key_room, count, sizeof *facet->key))
         return;
-    for (uint32_t i = 0; i < count; i++)
-        facet->key[i] = kept->key[order[i]];
+    memcpy(facet->key, key, count * sizeof *key);
     facet->key_count = count;
     facet->based = false;
 }
 
-/* Brings the facets to the candidates that are listed, which stand by planes in `order`. */
+/* Brings the facets to the candidates that are listed. */
 static void merge_facets(pir_kept_sum *kept) {
     uint32_t old = 0, count = 0;
+    if (!pir_space_grow(kept->space, (void **)&kept->merged, &kept->merged_room, kept->key_count, sizeof *kept->merged))
+        return;
     for (uint32_t i = 0, end; i < kept->key_count; i = end) {
-        const pir_candidate_key key = kept->key[kept->order[i]];
-        for (end = i + 1; end < kept->key_count && compare_planes(kept->key[kept->order[end]], key) == 0; end++)
+        const pir_candidate_key key = kept->key[i];
+        for (end = i + 1; end < kept->key_count && compare_planes(kept->key[end], key) == 0; end++)
             ;
         for (; old < kept->count && compare_planes(kept->facet[old]->key[0], key) < 0; old++)
             drop_facet(kept, kept->facet[old]);
         const bool known = old < kept->count && compare_planes(kept->facet[old]->key[0], key) == 0;
         kept->merged[count] = known ? kept->facet[old++] : new_facet(kept);
         if (kept->merged[count])
-            set_keys(kept, kept->merged[count++], kept->order + i, end - i);
+            set_keys(kept, kept->merged[count++], kept->key + i, end - i);
     }
     for (; old < kept->count; old++)
         drop_facet(kept, kept->facet[old]);
@@ -225,26 +249,122 @@ static void merge_facets(pir_kept_sum *kept) {
     kept->count = count;
 }
 
+/* Makes what was listed the list before, and begins another. */
+static void begin_list(pir_kept_sum *kept) {
+    pir_candidate_key *const key = kept->key;
+    const uint32_t room = kept->key_room;
+    kept->key = kept->key_before;
+    kept->key_room = kept->key_before_room;
+    kept->key_before = key;
+    kept->key_before_room = room;
+    kept->key_before_count = kept->key_count;
+    kept->key_count = 0;
+}
+
 /* Brings the facets to the candidates that the table tells. */
 static void list_facets(pir_kept_sum *kept) {
     kept->key_count = 0;
     list_at_vertices(kept, 0);
     list_edges(kept);
     list_at_vertices(kept, 1);
-    if (pir_space_grow(kept->space, (void **)&kept->merged, &kept->merged_room, kept->key_count,
-                       sizeof *kept->merged) &&
-        sort(kept, kept->key_count, plane_before, kept->key))
-        merge_facets(kept);
+    begin_list(kept);
+    if (!sort(kept, kept->key_before_count, listed_before, kept->key_before))
+        return;
+    for (uint32_t i = 0; i < kept->key_before_count; i++)
+        push_key(kept, kept->key_before[kept->order[i]]);
+    merge_facets(kept);
 }
 
-static bool candidates_may_differ(const pir_sign_table *table) {
-    for (uint32_t i = 0; i < table->change_count; i++) {
-        const pir_sign_change *change = &table->change[i];
-        const pir_sign_half *half = &table->half[change->half];
-        if (half->row_is_outer[change->row] && half->column_is_outer[change->column])
-            return true;
+/* --- candidates that change --- */
+
+/* Puts a key among those that are to be looked at again, in order, once. */
+static void touch(pir_kept_sum *kept, pir_candidate_key key) {
+    if (!pir_space_grow(kept->space, (void **)&kept->touched, &kept->touched_room, kept->touched_count,
+                        sizeof *kept->touched))
+        return;
+    uint32_t at = kept->touched_count;
+    while (at > 0 && key_before(key, kept->touched[at - 1]))
+        at--;
+    if (at > 0 && !key_before(kept->touched[at - 1], key))
+        return;
+    memmove(kept->touched + at + 1, kept->touched + at, (kept->touched_count - at) * sizeof *kept->touched);
+    kept->touched[at] = key;
+    kept->touched_count++;
+}
+
+/* Touches the candidates that rest on a sign, of an edge e of body k with a column of normals of the other: with the
+ * facets that have such a normal the ends of e, and e with the edges beside them. */
+static void touch_edge(pir_kept_sum *kept, int k, uint32_t e, uint32_t column) {
+    const pir_shell_body *a = &kept->body[k], *b = &kept->body[1 - k];
+    const pir_sign_half *half = &kept->table.half[k];
+    const pir_table_edge *other = kept->table.edge[1 - k];
+    for (uint32_t f = 0; f < b->source.facet_count; f++) {
+        if (b->group[f] != f || half->column_of[kept->space->plane[b->plane[f]].direction[0]] >> 1 != column)
+            continue;
+        touch(kept, key_at_vertex(kept, 1 - k, f, a->edge[e].a - a->first_point));
+        touch(kept, key_at_vertex(kept, 1 - k, f, a->edge[e].b - a->first_point));
     }
-    return false;
+    for (uint32_t g = 0; g < b->edge_count && a->edge[e].bend == PIR_BEND_CONVEX; g++)
+        if (b->edge[g].bend == PIR_BEND_CONVEX && (other[g].left >> 1 == column || other[g].right >> 1 == column))
+            touch(kept, k == 0 ? key_of_edges(kept, e, g) : key_of_edges(kept, g, e));
+}
+
+/* Touches all candidates that rest on signs which have changed; false where these are many. */
+static bool touch_changed(pir_kept_sum *kept) {
+    const pir_sign_table *table = &kept->table;
+    kept->touched_count = 0;
+    for (uint32_t i = 0; i < table->change_count && kept->touched_count <= TOUCHED_MOST; i++) {
+        const pir_sign_change change = table->change[i];
+        const pir_sign_half *half = &table->half[change.half];
+        if (!half->row_is_outer[change.row] || !half->column_is_outer[change.column])
+            continue;
+        for (uint32_t e = 0; e < kept->body[change.half].edge_count; e++)
+            if (table->edge[change.half][e].row >> 1 == change.row)
+                touch_edge(kept, (int)change.half, e, change.column);
+    }
+    return kept->touched_count <= TOUCHED_MOST;
+}
+
+/* Lists a facet with a vertex, if no edge leads from there above the facet. */
+static void list_at_vertex(pir_kept_sum *kept, pir_candidate_key key) {
+    const int k = key.kind == PIR_FACET_OF_P ? 0 : 1;
+    const pir_shell_body *a = &kept->body[k], *b = &kept->body[1 - k];
+    const pir_sign_half *half = &kept->table.half[1 - k];
+    const uint32_t column = half->column_of[kept->space->plane[a->plane[key.a]].direction[0]];
+    const uint32_t vertex = b->first_point + key.b;
+    for (uint32_t e = 0; e < b->edge_count; e++) {
+        const bool begins = b->edge[e].a == vertex;
+        if ((begins || b->edge[e].b == vertex) &&
+            (pir_sign_at(half, kept->table.edge[1 - k][e].row, column) > 0) == begins)
+            return;
+    }
+    push_key(kept, key);
+}
+
+/* Likewise, from those that the facets have: only candidates that rest on signs which have changed are looked at. */
+static void amend_facets(pir_kept_sum *kept) {
+    if (!touch_changed(kept)) {
+        list_facets(kept);
+        return;
+    }
+    uint32_t old = 0;
+    if (kept->touched_count == 0)
+        return;
+    begin_list(kept);
+    const pir_candidate_key *before = kept->key_before;
+    for (uint32_t i = 0; i < kept->touched_count && kept->space->status == PIR_OK; i++) {
+        const pir_candidate_key key = kept->touched[i];
+        for (; old < kept->key_before_count && key_before(before[old], key); old++)
+            push_key(kept, before[old]);
+        old += old < kept->key_before_count && !key_before(key, before[old]);
+        if (key.kind == PIR_TWO_EDGES)
+            list_crossing(kept, key);
+        else
+            list_at_vertex(kept, key);
+    }
+    for (; old < kept->key_before_count; old++)
+        push_key(kept, before[old]);
+    merge_facets(kept);
 }
 
 /* --- what is near --- */
@@ -387,8 +507,8 @@ bool pir_kept_sum_update(pir_kept_sum *kept, pir_quat rotation) {
         return false;
     space->reuses = true;
     pir_kept_pairs_update(&kept->pairs);
-    if (space->status == PIR_OK && candidates_may_differ(&kept->table))
-        list_facets(kept);
+    if (space->status == PIR_OK)
+        amend_facets(kept);
     const bool meets = kept->maker.turn >= kept->near_until;
     if (space->status == PIR_OK && meets)
         make_boxes(kept, step);
@@ -444,6 +564,8 @@ void pir_kept_sum_finish(pir_kept_sum *kept) {
     pir_space_shrink(space, kept->facet, kept->room, sizeof(pir_plane_facet *));
     pir_space_shrink(space, kept->merged, kept->merged_room, sizeof(pir_plane_facet *));
     pir_space_shrink(space, kept->key, kept->key_room, sizeof *kept->key);
+    pir_space_shrink(space, kept->key_before, kept->key_before_room, sizeof *kept->key_before);
+    pir_space_shrink(space, kept->touched, kept->touched_room, sizeof *kept->touched);
     pir_space_shrink(space, kept->order, kept->order_room, sizeof *kept->order);
     pir_space_shrink(space, kept->work, kept->work_room, sizeof *kept->work);
     for (int k = 0; k < 2; k++)

@@ -34,8 +34,10 @@ typedef struct pir_kept_sum {
     bool is_listed; /* whether the facets' order by candidates is there */
     uint32_t *by_candidate, by_candidate_room;
     pir_kept_glue glue;
-    pir_candidate_key *key;
-    uint32_t key_count, key_room, *order, order_room, *work, work_room;
+    pir_candidate_key *key; /* of all facets' candidates, by planes */
+    uint32_t key_count, key_room;
+    pir_candidate_key *key_before, *touched; /* scratch, as is what follows */
+    uint32_t key_before_count, key_before_room, touched_count, touched_room, *order, order_room, *work, work_room;
     uint8_t *below;
     uint32_t below_room;
     pir_boxes boxes;    /* of the pairs' sums when P had turned by boxes_turn */
