@@ -212,6 +212,45 @@ void pir_kept_facet_clip(pir_facet_maker *maker, pir_plane_facet *facet) {
 
 /* --- after a turn --- */
 
+/* Whether no point is told to be above a plane: it cut nothing, nor held anything apart. */
+static bool is_idle(const pir_plane_facet *facet, uint32_t plane) {
+    for (uint32_t i = 0; i < facet->hot_count; i++)
+        if (facet->hot[i].plane == plane && facet->hot[i].sign > 0)
+            return false;
+    for (uint32_t i = 0; i < facet->cold_count; i++)
+        if (facet->cold[i].plane == plane && facet->cold[i].sign > 0)
+            return false;
+    return true;
+}
+
+/* Forgets the sides told of a plane, or of all that are dropped. */
+static void forget_sides(const pir_facet_maker *maker, pir_plane_facet *facet, uint32_t plane) {
+    uint32_t hot = 0, cold = 0;
+    for (uint32_t i = 0; i < facet->hot_count; i++)
+        if (facet->hot[i].plane != plane && !pir_plane_is_dropped(maker->pairs, facet->hot[i].plane))
+            facet->hot[hot++] = facet->hot[i];
+    for (uint32_t i = 0; i < facet->cold_count; i++)
+        if (facet->cold[i].plane != plane && !pir_plane_is_dropped(maker->pairs, facet->cold[i].plane)) {
+            facet->cold_until[cold] = facet->cold_until[i];
+            facet->cold[cold++] = facet->cold[i];
+        }
+    facet->hot_count = hot;
+    facet->cold_count = cold;
+}
+
+/* Whether a plane that a point is above now, below which it was, still cuts nothing of what its pair covers: then it is
+ * taken as a new one. */
+static bool is_spared(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_side told) {
+    uint32_t at = 0;
+    while (at < facet->cut_count && facet->cut[at].plane != told.plane)
+        at++;
+    if (told.sign > 0 || at == facet->cut_count || !is_idle(facet, told.plane))
+        return false;
+    forget_sides(maker, facet, told.plane);
+    pir_kept_facet_amend_plane(maker, facet, facet->cut[at].near, told.plane);
+    return facet->stands;
+}
+
 /* Looks at a cold side again; whether it is as it was. */
 static bool look_again(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t i) {
     pir_space *space = maker->space;
@@ -231,21 +270,30 @@ static bool cold_sides_stand(pir_facet_maker *maker, pir_plane_facet *facet) {
     if (turn < facet->told_until)
         return true;
     for (uint32_t i = 0; i < facet->cold_count; i++) {
-        if (facet->cold_until[i] <= turn && !look_again(maker, facet, i))
-            return false;
+        if (facet->cold_until[i] <= turn && !look_again(maker, facet, i)) {
+            if (!is_spared(maker, facet, facet->cold[i]))
+                return false;
+            i = UINT32_MAX;
+            least = (double)INFINITY;
+            continue;
+        }
         least = facet->cold_until[i] < least ? facet->cold_until[i] : least;
     }
     facet->told_until = least;
     return true;
 }
 
-static bool hot_sides_stand(pir_facet_maker *maker, const pir_plane_facet *facet) {
+static bool hot_sides_stand(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_space *space = maker->space;
     for (uint32_t i = 0; i < facet->hot_count; i++) {
         const pir_told_side side = facet->hot[i];
-        if (!pir_space_sees_point(space, side.point) || !pir_space_sees_plane(space, side.plane) ||
-            pir_space_side(space, pir_half(side.plane, false), side.point) != side.sign)
+        if (!pir_space_sees_point(space, side.point) || !pir_space_sees_plane(space, side.plane))
             return false;
+        if (pir_space_side(space, pir_half(side.plane, false), side.point) == side.sign)
+            continue;
+        if (!is_spared(maker, facet, side))
+            return false;
+        i = UINT32_MAX;
     }
     maker->looked += facet->hot_count;
     return true;
@@ -303,20 +351,29 @@ void pir_kept_facet_amend_pair(pir_facet_maker *maker, pir_plane_facet *facet, u
     }
 }
 
-/* Whether a plane is gone that a side was told of. */
-static bool names_dropped(const pir_facet_maker *maker, const pir_plane_facet *facet) {
+/* Whether the planes that are dropped cut nothing and held nothing apart; what was told of them is forgotten. */
+static bool outlives_dropped(const pir_facet_maker *maker, pir_plane_facet *facet) {
+    bool named = false;
     for (uint32_t i = 0; i < facet->hot_count; i++)
-        if (pir_plane_is_dropped(maker->pairs, facet->hot[i].plane))
-            return true;
+        if (pir_plane_is_dropped(maker->pairs, facet->hot[i].plane)) {
+            named = true;
+            if (facet->hot[i].sign > 0)
+                return false;
+        }
     for (uint32_t i = 0; i < facet->cold_count; i++)
-        if (pir_plane_is_dropped(maker->pairs, facet->cold[i].plane))
-            return true;
-    return false;
+        if (pir_plane_is_dropped(maker->pairs, facet->cold[i].plane)) {
+            named = true;
+            if (facet->cold[i].sign > 0)
+                return false;
+        }
+    if (named)
+        forget_sides(maker, facet, PIR_SPACE_NONE);
+    return true;
 }
 
 bool pir_kept_facet_stands(pir_facet_maker *maker, pir_plane_facet *facet) {
     facet->stands = facet->stands && !facet->fleeting &&
-                    (maker->pairs->dropped_count == 0 || !names_dropped(maker, facet)) &&
+                    (maker->pairs->dropped_count == 0 || outlives_dropped(maker, facet)) &&
                     cold_sides_stand(maker, facet) && hot_sides_stand(maker, facet) && parted_stand(maker, facet);
     return facet->stands;
 }

@@ -34,7 +34,7 @@ typedef struct pir_parted_polygon {
     double until;          /* for whoever keeps it */
 } pir_parted_polygon;
 
-/* A polygon from which a convex set was taken; or, with no set, one that is left. */
+/* A polygon that a convex set covers; or, with no set, one that is left. */
 typedef struct pir_met {
     uint32_t set, first, count;
 } pir_met;
@@ -72,7 +72,7 @@ void pir_record_polygon(const pir_polygons *polygons, uint32_t polygon, uint32_t
 /* Notes that a polygon is apart from the set at hand, by a half-space whose plane all corners are above. */
 void pir_record_parted(const pir_polygons *polygons, uint32_t polygon, uint32_t half);
 
-/* Notes that the set at hand is taken from a polygon, or with no set that the polygon is left. */
+/* Notes that a set covers a polygon, or with no set that the polygon is left. */
 void pir_record_met(const pir_polygons *polygons, uint32_t polygon, uint32_t set);
 
 /* Adds a number to a list. */

@@ -57,26 +57,46 @@ static bool faces_same_way(const pir_space *space, uint32_t a, uint32_t b) {
 
 enum meeting { MEETS, APART };
 
-/* Whether a fragment meets the set; the half-spaces that cut it are counted, and stand first in `cutter`. */
+/* Whether doubles say that all of a ball is below a half-space. */
+static bool is_ball_below(const pir_space *space, const pir_ball *ball, uint32_t half) {
+    const pir_space_plane *f = &space->plane[half >> 1];
+    return pir_ball_side(ball, f, pir_ball_depth(ball, f)) * (half & 1 ? -1 : 1) < 0;
+}
+
+/* Whether a fragment meets the set; the half-spaces that cut it are counted, and stand first in `cutter`, before all
+ * others. Recorded is what tells that it does not: that a half-space cuts the fragment need not stay so. */
 static enum meeting find_cutters(pir_polygons *polygons, uint32_t fragment, const uint32_t *half, uint32_t count,
                                  uint32_t *cutter, uint32_t *ret_cutters) {
+    pir_space *space = polygons->space;
+    pir_side_record *record = space->record;
     const pir_ball ball = pir_polygons_ball(polygons, fragment);
-    uint32_t cutters = 0;
-    for (uint32_t h = 0; h < count; h++) {
-        const pir_space_plane *f = &polygons->space->plane[half[h] >> 1];
-        if (pir_ball_side(&ball, f, pir_ball_depth(&ball, f)) * (half[h] & 1 ? -1 : 1) < 0) {
-            if (polygons->space->record)
-                pir_record_polygon(polygons, fragment, half[h], -1);
-            continue;
+    uint32_t cutters = 0, others = count;
+    space->record = NULL;
+    enum meeting meeting = MEETS;
+    for (uint32_t h = 0; h < count && meeting == MEETS; h++) {
+        const unsigned sides =
+            is_ball_below(space, &ball, half[h]) ? 1 : pir_polygons_sides(polygons, fragment, half[h]);
+        if (sides == 2 || (sides == 0 && faces_same_way(space, polygons->polygon[fragment].half, half[h]))) {
+            space->record = record;
+            if (record)
+                pir_polygons_sides(polygons, fragment, half[h]);
+            meeting = APART;
         }
-        const unsigned sides = pir_polygons_sides(polygons, fragment, half[h]);
-        if (sides == 2 || (sides == 0 && faces_same_way(polygons->space, polygons->polygon[fragment].half, half[h])))
-            return APART;
-        if (sides == 3)
-            cutter[cutters++] = half[h];
+        cutter[sides == 3 ? cutters++ : --others] = half[h];
     }
+    space->record = record;
     *ret_cutters = cutters;
-    return MEETS;
+    return meeting;
+}
+
+/* Records that half-spaces do not cut a fragment. */
+static void record_below(pir_polygons *polygons, uint32_t fragment, const uint32_t *half, uint32_t count) {
+    const pir_ball ball = pir_polygons_ball(polygons, fragment);
+    for (uint32_t h = 0; h < count; h++)
+        if (is_ball_below(polygons->space, &ball, half[h]))
+            pir_record_polygon(polygons, fragment, half[h], -1);
+        else
+            pir_polygons_sides(polygons, fragment, half[h]);
 }
 
 /* Puts the half-space first that cuts most off a fragment, as its middle has it: the fewer parts are there in the end.
@@ -104,8 +124,6 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
         return;
     if (find_cutters(polygons, rest, half, count, fragments->spare, &cutters) == APART)
         return;
-    if (space->record)
-        pir_record_met(polygons, rest, space->record->set);
     const uint32_t before = fragments->count, polygon_count = polygons->count;
     for (uint32_t h = 0; h < cutters && space->status == PIR_OK; h++) {
         choose_cutter(polygons, rest, fragments->spare + h, cutters - h);
@@ -122,6 +140,10 @@ static void subtract_one(pir_fragments *fragments, uint32_t at, pir_polygons *po
         pir_polygons_cut(polygons, rest, fragments->spare[h], parts);
         pir_fragments_add(fragments, space, parts[1]);
         rest = parts[0];
+    }
+    if (space->record) {
+        record_below(polygons, fragments->polygon[at], fragments->spare + cutters, count - cutters);
+        pir_record_met(polygons, rest, space->record->set);
     }
     if (covered)
         pir_fragments_add(covered, space, rest);
