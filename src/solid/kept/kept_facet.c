@@ -55,7 +55,8 @@ void pir_kept_facet_empty(pir_facet_maker *maker, pir_plane_facet *facet) {
     facet->key_count = 0;
     outline->run_count = outline->member.count = outline->chain.count = outline->touch.count = 0;
     outline->loop.count = outline->end.count = 0;
-    outline->is_traced = outline->knotted = false;
+    outline->near.count = 0;
+    outline->is_traced = outline->knotted = outline->is_listed = false;
 }
 
 void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
@@ -78,7 +79,8 @@ void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_space_shrink(space, facet->met, facet->met_room, sizeof *facet->met);
     pir_space_shrink(space, facet->edge.segment, facet->edge.room, sizeof *facet->edge.segment);
     pir_facet_outline *outline = &facet->outline;
-    pir_number_list *const list[] = {&outline->member, &outline->chain, &outline->touch, &outline->loop, &outline->end};
+    pir_number_list *const list[] = {&outline->member, &outline->chain, &outline->touch,
+                                     &outline->near,   &outline->loop,  &outline->end};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         pir_space_shrink(space, list[i]->number, list[i]->room, sizeof(uint32_t));
     pir_space_shrink(space, outline->run, outline->run_room, sizeof *outline->run);

@@ -83,9 +83,13 @@ typedef struct pir_facet_outline {
     pir_number_list chain;  /* of each line with more than two ends: its plane, their number, and these in order */
     pir_kept_run *run;
     uint32_t run_count, run_room;
-    pir_number_list touch; /* a run, by order, then a vertex within it; along the run */
-    pir_number_list loop;  /* corners of all loops */
-    pir_number_list end;   /* of each loop in `loop` */
+    pir_number_list touch;  /* a run, by order, then a vertex within it; along the run */
+    bool is_listed;         /* whether what follows is there */
+    pir_number_list near;   /* a run, by order, then a vertex near it */
+    pir_space_box near_box; /* of what is so near */
+    double near_until;      /* a way of the glue's vertices, up to which no other vertex gets to a run */
+    pir_number_list loop;   /* corners of all loops */
+    pir_number_list end;    /* of each loop in `loop` */
 } pir_facet_outline;
 
 typedef struct pir_plane_facet {

@@ -3,8 +3,19 @@
 #include "solid/kept/kept_glue.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "solid/space/identity.h"
+
+/* A vertex is fresh that goes farther in a call than so many times as far as all went in the mean, in the one before;
+ * with more than FRESH_MOST of them, all vertices near edges are listed. */
+#define FARTHER_MOST 4
+#define FRESH_MOST   64
+
+/* A vertex is near an edge that it may get to while both go as far as they do in the mean, so many times; but never at
+ * more than this distance: then only vertices that may be within it are listed, for one call. */
+#define NEAR_STEPS 48
+#define NEAR_MOST  .03
 
 void pir_kept_glue_init(pir_kept_glue *glue, pir_space *space) {
     *glue = (pir_kept_glue){.space = space};
@@ -18,12 +29,16 @@ void pir_kept_glue_finish(pir_kept_glue *glue) {
     pir_space *space = glue->space;
     if (!space)
         return;
-    pir_number_list *const list[] = {&glue->spare, &glue->ends, &glue->found, &glue->touch, &glue->first};
+    pir_number_list *const list[] = {&glue->spare, &glue->fresh, &glue->there,
+                                     &glue->found, &glue->touch, &glue->first};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         pir_space_shrink(space, list[i]->number, list[i]->room, sizeof(uint32_t));
     pir_space_shrink(space, glue->point, glue->point_room, sizeof *glue->point);
     pir_space_shrink(space, glue->vertex, glue->vertex_room, sizeof *glue->vertex);
     pir_space_shrink(space, glue->met, glue->met_room, sizeof *glue->met);
+    pir_space_shrink(space, glue->place, glue->place_room, sizeof *glue->place);
+    pir_space_shrink(space, glue->ended, glue->ended_room, sizeof *glue->ended);
+    pir_space_shrink(space, glue->renewed, glue->renewed_room, sizeof *glue->renewed);
     pir_space_shrink(space, glue->mark, glue->mark_room, sizeof *glue->mark);
     pir_space_shrink(space, glue->edge.segment, glue->edge.room, sizeof *glue->edge.segment);
     pir_union_outline_finish(&glue->around);
@@ -84,10 +99,31 @@ static void find_points(pir_kept_glue *glue, pir_plane_facet *const *facet, uint
             pir_number_list_add(&glue->spare, glue->space, v);
 }
 
+/* Notes that a vertex is fresh. */
+static void refresh(pir_kept_glue *glue, uint32_t v) {
+    glue->renewed[v] = glue->calls;
+    pir_number_list_add(&glue->fresh, glue->space, v);
+}
+
+/* Moves a vertex to where its point is; how far it has gone. */
+static double move(pir_kept_glue *glue, uint32_t v) {
+    const double *x = glue->space->point[glue->point[v]].x;
+    double *place = glue->place + 3 * (size_t)v, square = 0;
+    for (int k = 0; k < 3; k++) {
+        square += (x[k] - place[k]) * (x[k] - place[k]);
+        place[k] = x[k];
+    }
+    return sqrt(square);
+}
+
 /* Puts the vertices where they are at this rotation; false where two are at one place. */
 static bool place_vertices(pir_kept_glue *glue) {
     pir_space *space = glue->space;
+    const double most = FARTHER_MOST * glue->mean;
+    double farthest = 0, sum = 0;
+    uint32_t count = 0;
     pir_union_outline_clear(&glue->around);
+    glue->fresh.count = 0;
     for (uint32_t v = 0; v < glue->vertex_count && space->status == PIR_OK; v++) {
         const uint32_t point = glue->point[v];
         if (point == PIR_SPACE_NONE)
@@ -96,7 +132,17 @@ static bool place_vertices(pir_kept_glue *glue) {
         if (pir_places_point(&glue->around.points, point) != point)
             return false;
         glue->vertex[point] = v;
+        const double way = move(glue, v);
+        sum += way;
+        count++;
+        if (way > most)
+            refresh(glue, v);
+        else
+            farthest = way > farthest ? way : farthest;
     }
+    // doubles are off by no more than an error, before and now, along each axis
+    glue->way += farthest + 4 * PIR_SPACE_ERROR;
+    glue->mean = count > 0 ? sum / count : 0;
     return space->status == PIR_OK;
 }
 
@@ -111,13 +157,18 @@ static uint32_t vertex_at(pir_kept_glue *glue, uint32_t point, uint32_t *ret_poi
     if (glue->spare.count > 0)
         v = glue->spare.number[--glue->spare.count];
     if (!pir_space_grow(space, (void **)&glue->point, &glue->point_room, v, sizeof *glue->point) ||
-        !pir_space_grow(space, (void **)&glue->mark, &glue->mark_room, v, sizeof *glue->mark))
+        !pir_space_grow(space, (void **)&glue->mark, &glue->mark_room, v, sizeof *glue->mark) ||
+        !pir_space_grow(space, (void **)&glue->ended, &glue->ended_room, v, sizeof *glue->ended) ||
+        !pir_space_grow(space, (void **)&glue->renewed, &glue->renewed_room, v, sizeof *glue->renewed) ||
+        !pir_space_grow(space, (void **)&glue->place, &glue->place_room, 3 * v + 2, sizeof *glue->place))
         return 0;
     if (v == glue->vertex_count) {
         glue->vertex_count++;
-        glue->mark[v] = 0;
+        glue->mark[v] = glue->ended[v] = 0;
     }
     glue->point[v] = point;
+    memcpy(glue->place + 3 * (size_t)v, space->point[point].x, 3 * sizeof *glue->place);
+    refresh(glue, v);
     return glue->vertex[point] = v;
 }
 
@@ -213,7 +264,7 @@ static void keep_runs(pir_kept_glue *glue, pir_facet_outline *outline) {
     for (uint32_t i = 0; i < around->run_count; i++)
         same &= keep_run(glue, outline, &around->run[around->order[i]]);
     if (!same) {
-        outline->is_traced = false;
+        outline->is_traced = outline->is_listed = false;
         outline->touch.count = 0;
     }
     for (uint32_t at = 0; at < around->chain_count; at += 2 + around->chain[at + 1])
@@ -248,8 +299,10 @@ static bool make_outlines(pir_kept_glue *glue, pir_plane_facet *const *facet, co
         pir_space_renew_plane(space, own->half >> 1);
         if (pir_places_half(&glue->planes, own->half) >> 1 != own->half >> 1)
             return false;
-        if (own->edge.count == 0)
+        if (own->edge.count == 0) {
+            own->outline.is_listed = false;
             continue;
+        }
         if (!own->outline.made || !chains_hold(glue, own))
             make_outline(glue, own);
     }
@@ -257,19 +310,131 @@ static bool make_outlines(pir_kept_glue *glue, pir_plane_facet *const *facet, co
     return space->status == PIR_OK;
 }
 
-static void list_ends(pir_kept_glue *glue, pir_plane_facet *const *facet, uint32_t count) {
-    glue->round++;
-    glue->ends.count = 0;
-    for (uint32_t i = 0; i < count; i++)
-        for (uint32_t r = 0; r < facet[i]->outline.run_count && facet[i]->edge.count > 0; r++) {
-            const pir_kept_run *run = &facet[i]->outline.run[r];
-            const uint32_t end[2] = {run->a, run->b};
-            for (int k = 0; k < 2; k++)
-                if (glue->mark[end[k]] != glue->round) {
-                    glue->mark[end[k]] = glue->round;
-                    pir_number_list_add(&glue->ends, glue->space, end[k]);
-                }
+/* --- vertices near edges --- */
+
+/* Notes where edges end. The vertices near an edge are to be listed again where an end is fresh. */
+static void note_ends(pir_kept_glue *glue, pir_plane_facet *const *facet, uint32_t count) {
+    glue->all_fresh = glue->fresh.count > FRESH_MOST;
+    for (uint32_t i = 0; i < count; i++) {
+        pir_facet_outline *outline = &facet[i]->outline;
+        for (uint32_t r = 0; r < outline->run_count && facet[i]->edge.count > 0; r++) {
+            const pir_kept_run *run = &outline->run[r];
+            glue->ended[run->a] = glue->ended[run->b] = glue->calls;
+            outline->is_listed &= glue->renewed[run->a] != glue->calls && glue->renewed[run->b] != glue->calls;
         }
+    }
+}
+
+/* Puts all vertices into the grid. */
+static void make_grid(pir_kept_glue *glue) {
+    glue->there.count = 0;
+    for (uint32_t v = 0; v < glue->vertex_count; v++)
+        if (glue->point[v] != PIR_SPACE_NONE)
+            pir_number_list_add(&glue->there, glue->space, v);
+    pir_vertex_grid_make(&glue->grid, glue->space, glue->point, &glue->there);
+    glue->gridded = true;
+}
+
+/* Whether a vertex is no farther from a run than a radius. */
+static bool is_near(const pir_kept_glue *glue, const pir_kept_run *run, uint32_t v, double radius) {
+    const double *x = glue->place + 3 * (size_t)v;
+    const double *a = glue->place + 3 * (size_t)run->a, *b = glue->place + 3 * (size_t)run->b;
+    double along = 0, length = 0, square = 0;
+    for (int k = 0; k < 3; k++) {
+        along += (b[k] - a[k]) * (x[k] - a[k]);
+        length += (b[k] - a[k]) * (b[k] - a[k]);
+    }
+    const double at = along <= 0 ? 0 : along >= length ? 1 : along / length;
+    for (int k = 0; k < 3; k++) {
+        const double off = x[k] - a[k] - at * (b[k] - a[k]);
+        square += off * off;
+    }
+    return square <= radius * radius;
+}
+
+static pir_space_box run_box(const pir_kept_glue *glue, const pir_kept_run *run, double radius) {
+    pir_space_box box = PIR_SPACE_BOX_EMPTY;
+    pir_space_box_add(&box, &glue->space->point[glue->point[run->a]]);
+    pir_space_box_add(&box, &glue->space->point[glue->point[run->b]]);
+    for (int k = 0; k < 3; k++) {
+        box.low[k] -= radius;
+        box.high[k] += radius;
+    }
+    return box;
+}
+
+/* Lists the vertices near the runs of a facet. */
+static void list_near(pir_kept_glue *glue, pir_facet_outline *outline) {
+    pir_space *space = glue->space;
+    const double wanted = NEAR_STEPS * glue->mean, skin = glue->all_fresh || wanted > NEAR_MOST ? 0 : wanted;
+    const double radius = skin + 16 * PIR_SPACE_ERROR;
+    if (!glue->gridded)
+        make_grid(glue);
+    outline->near.count = 0;
+    outline->near_box = PIR_SPACE_BOX_EMPTY;
+    for (uint32_t r = 0; r < outline->run_count && space->status == PIR_OK; r++) {
+        const pir_kept_run *run = &outline->run[r];
+        const pir_space_box box = run_box(glue, run, radius);
+        for (int k = 0; k < 3; k++) {
+            outline->near_box.low[k] = fmin(outline->near_box.low[k], box.low[k]);
+            outline->near_box.high[k] = fmax(outline->near_box.high[k], box.high[k]);
+        }
+        pir_vertex_grid_find(&glue->grid, space, glue->point, box, &glue->found);
+        for (uint32_t i = 0; i < glue->found.count; i++) {
+            const uint32_t v = glue->found.number[i];
+            if (v == run->a || v == run->b || !is_near(glue, run, v, radius))
+                continue;
+            pir_number_list_add(&outline->near, space, r);
+            pir_number_list_add(&outline->near, space, v);
+        }
+    }
+    // an edge and a vertex approach by no more than both go
+    outline->near_until = glue->way + skin / 2;
+    outline->is_listed = space->status == PIR_OK;
+}
+
+static bool is_known(const pir_number_list *list, uint32_t r, uint32_t v) {
+    for (uint32_t i = 0; i < list->count; i += 2)
+        if (list->number[i] == r && list->number[i + 1] == v)
+            return true;
+    return false;
+}
+
+/* Lists a vertex as near run r, in the order of runs. */
+static void insert_near(pir_kept_glue *glue, pir_number_list *near, uint32_t r, uint32_t v) {
+    if (is_known(near, r, v))
+        return;
+    pir_number_list_add(near, glue->space, r);
+    pir_number_list_add(near, glue->space, v);
+    if (glue->space->status != PIR_OK)
+        return;
+    for (uint32_t at = near->count - 2; at > 0 && near->number[at - 2] > r; at -= 2) {
+        near->number[at] = near->number[at - 2];
+        near->number[at + 1] = near->number[at - 1];
+        near->number[at - 2] = r;
+        near->number[at - 1] = v;
+    }
+}
+
+/* Lists those fresh vertices that are near the runs of a facet, too. */
+static void add_fresh(pir_kept_glue *glue, pir_facet_outline *outline) {
+    const double radius = 2 * (outline->near_until - glue->way) + 16 * PIR_SPACE_ERROR;
+    for (uint32_t i = 0; i < glue->fresh.count; i++) {
+        const uint32_t v = glue->fresh.number[i];
+        if (!pir_vertex_is_in(&outline->near_box, glue->place + 3 * (size_t)v))
+            continue;
+        for (uint32_t r = 0; r < outline->run_count; r++)
+            if (is_near(glue, &outline->run[r], v, radius))
+                insert_near(glue, &outline->near, r, v);
+    }
+}
+
+/* Sees to it that each vertex that may be within a run of a facet is listed as near it. */
+static void follow_near(pir_kept_glue *glue, pir_facet_outline *outline) {
+    if (!outline->is_listed || glue->all_fresh || glue->way > outline->near_until)
+        list_near(glue, outline);
+    else
+        add_fresh(glue, outline);
 }
 
 /* --- touches --- */
@@ -316,34 +481,23 @@ static void add_touch(pir_kept_glue *glue, uint32_t r, const uint32_t plane[2], 
     }
 }
 
-static bool is_known(const pir_number_list *touch, uint32_t r, uint32_t v) {
-    for (uint32_t i = 0; i < touch->count; i += 2)
-        if (touch->number[i] == r && touch->number[i + 1] == v)
-            return true;
-    return false;
-}
-
 /* Finds the vertices within the runs of a facet; whether they are as they were. */
 static bool find_touches(pir_kept_glue *glue, pir_plane_facet *facet) {
     pir_space *space = glue->space;
     pir_facet_outline *outline = &facet->outline;
+    const pir_number_list *near = &outline->near;
     glue->touch.count = 0;
-    for (uint32_t r = 0; r < outline->run_count && space->status == PIR_OK; r++) {
+    follow_near(glue, outline);
+    for (uint32_t i = 0, first = 0; i < near->count && space->status == PIR_OK; i += 2) {
+        const uint32_t r = near->number[i], v = near->number[i + 1];
         const pir_kept_run *run = &outline->run[r];
-        const uint32_t plane[2] = {facet->half >> 1, run->plane}, first = glue->touch.count;
-        pir_space_box box = PIR_SPACE_BOX_EMPTY;
-        pir_space_box_add(&box, &space->point[glue->point[run->a]]);
-        pir_space_box_add(&box, &space->point[glue->point[run->b]]);
-        pir_vertex_grid_find(&glue->grid, space, glue->point, box, &glue->found);
-        for (uint32_t i = 0; i < glue->found.count; i++) {
-            const uint32_t v = glue->found.number[i];
-            if (v == run->a || v == run->b || is_off(space, plane[0], glue->point[v]))
-                continue;
-            pir_space_renew_plane(space, plane[1]);
-            if (!is_off(space, plane[1], glue->point[v]) &&
-                is_within(glue, run, plane, v, is_known(&outline->touch, r, v)))
-                add_touch(glue, r, plane, run, v, first);
-        }
+        const uint32_t plane[2] = {facet->half >> 1, run->plane};
+        first = i > 0 && near->number[i - 2] == r ? first : glue->touch.count;
+        if (v == run->a || v == run->b || glue->ended[v] != glue->calls || is_off(space, plane[0], glue->point[v]))
+            continue;
+        pir_space_renew_plane(space, plane[1]);
+        if (!is_off(space, plane[1], glue->point[v]) && is_within(glue, run, plane, v, is_known(&outline->touch, r, v)))
+            add_touch(glue, r, plane, run, v, first);
     }
     bool same = outline->touch.count == glue->touch.count;
     for (uint32_t i = 0; i < glue->touch.count && same; i++)
@@ -477,6 +631,8 @@ static bool prepare(pir_kept_glue *glue, pir_plane_facet *const *facet, uint32_t
                       pir_space_grow(space, (void **)&glue->met, &glue->met_room, points, sizeof *glue->met);
     for (uint32_t p = before; p < glue->met_room; p++)
         glue->met[p] = 0;
+    glue->calls++;
+    glue->gridded = false;
     if (glue->fleeting)
         forget(facet, count);
     glue->fleeting = false;
@@ -497,8 +653,7 @@ bool pir_kept_glue_make(pir_kept_glue *glue, pir_plane_facet *const *facet, cons
     uint32_t sides = 0;
     if (!prepare(glue, facet, count) || !make_outlines(glue, facet, order, count))
         return false;
-    list_ends(glue, facet, count);
-    pir_vertex_grid_make(&glue->grid, space, glue->point, &glue->ends);
+    note_ends(glue, facet, count);
     for (uint32_t i = 0; i < count && space->status == PIR_OK; i++) {
         pir_plane_facet *own = facet[order[i]];
         pir_facet_outline *outline = &own->outline;

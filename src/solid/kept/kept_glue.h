@@ -12,6 +12,9 @@
  * - The outline of each facet that bounds the sum is made. It is of the facet's edges, until the facet is clipped anew.
  * - Two points are at one vertex exactly if they are one at every rotation.
  * - A vertex is in the list of touches of each edge that has it within, and of no other one.
+ * - A vertex that is not in the list of those near an edge can get to it only once the vertices have gone farther than
+ *   is noted with the list: ways add up from call to call, each the farthest way of any vertex. A vertex that goes much
+ *   farther than others is `fresh` instead, as one that is new: it is held against all edges.
  * Where something is so at this rotation by numbers alone, the glue is fleeting, and the next call begins afresh.
  */
 #ifndef PIR_SOLID_KEPT_KEPT_GLUE_H
@@ -31,8 +34,16 @@ typedef struct pir_kept_glue {
     uint64_t *mark;                /* per vertex: the round in which it was met last */
     uint64_t *met;                 /* per point of the space likewise */
     uint32_t mark_room, met_room;
-    uint64_t round;           /* of facets, in all calls */
-    pir_number_list ends;     /* vertices at which edges end */
+    uint64_t round;    /* of facets, in all calls */
+    double *place;     /* per vertex: x, y, z in the last call */
+    uint64_t *ended;   /* per vertex: the call in which an edge ended there */
+    uint64_t *renewed; /* per vertex: the call in which it was fresh */
+    uint32_t place_room, ended_room, renewed_room;
+    uint64_t calls;
+    pir_number_list fresh;
+    bool all_fresh, gridded;  /* whether there are too many of them; whether the grid is of this call */
+    double way, mean;         /* that all others went in all calls; that they went in this one, in the mean */
+    pir_number_list there;    /* scratch: vertices in use */
     pir_union_outline around; /* of the facet at hand; its points are those of all vertices */
     pir_union_outline cut;    /* of the facet at hand, its runs cut */
     pir_places planes;

@@ -55,13 +55,6 @@ void pir_vertex_grid_finish(pir_vertex_grid *grid, pir_space *space) {
     *grid = (pir_vertex_grid){0};
 }
 
-static bool is_in(const pir_space_box *box, const double *x) {
-    for (int k = 0; k < 3; k++)
-        if (x[k] < box->low[k] || x[k] > box->high[k])
-            return false;
-    return true;
-}
-
 void pir_vertex_grid_find(const pir_vertex_grid *grid, pir_space *space, const uint32_t *point, pir_space_box box,
                           pir_number_list *ret_found) {
     const uint32_t side = grid->side;
@@ -78,7 +71,7 @@ void pir_vertex_grid_find(const pir_vertex_grid *grid, pir_space *space, const u
             // the cells along the last axis are in a row
             const uint32_t row = (i * side + j) * side;
             for (uint32_t at = grid->start[row + low[2]]; at < grid->start[row + high[2] + 1]; at++)
-                if (is_in(&box, space->point[point[grid->vertex[at]]].x))
+                if (pir_vertex_is_in(&box, space->point[point[grid->vertex[at]]].x))
                     pir_number_list_add(ret_found, space, grid->vertex[at]);
         }
 }

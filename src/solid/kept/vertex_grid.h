@@ -17,6 +17,13 @@ void pir_vertex_grid_make(pir_vertex_grid *grid, pir_space *space, const uint32_
                           const pir_number_list *vertices);
 void pir_vertex_grid_finish(pir_vertex_grid *grid, pir_space *space);
 
+static inline bool pir_vertex_is_in(const pir_space_box *box, const double x[3]) {
+    for (int k = 0; k < 3; k++)
+        if (x[k] < box->low[k] || x[k] > box->high[k])
+            return false;
+    return true;
+}
+
 /* Lists the vertices that may be in a box. */
 void pir_vertex_grid_find(const pir_vertex_grid *grid, pir_space *space, const uint32_t *point, pir_space_box box,
                           pir_number_list *ret_found);
