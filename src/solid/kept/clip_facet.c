@@ -98,6 +98,14 @@ static void clip_candidate(pir_facet_maker *maker, pir_plane_facet *facet, uint3
 
 /* --- the record --- */
 
+/* How far P may turn before a corner of the candidates at this distance from a plane may be in it. */
+static double side_until(const pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t plane, uint32_t corner,
+                         double distance) {
+    pir_plane_reach reach = pir_reach_of(maker->space, plane);
+    pir_reach_add(&reach, maker->space, facet, &maker->space->point[corner]);
+    return pir_distance_until(maker, plane, distance, &reach);
+}
+
 /* Keeps a side that was told. */
 static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_side told) {
     pir_space *space = maker->space;
@@ -107,7 +115,7 @@ static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
         return;
     }
     const double distance = pir_sure_distance(space, told.plane, told.point, told.sign);
-    const double until = pir_distance_until(maker, told.plane, distance);
+    const double until = side_until(maker, facet, told.plane, told.point, distance);
     if (!pir_space_grow(space, (void **)&facet->cold, &facet->cold_room, facet->cold_count, sizeof *facet->cold) ||
         !pir_space_grow(space, (void **)&facet->cold_until, &facet->cold_until_room, facet->cold_count,
                         sizeof *facet->cold_until))
@@ -118,35 +126,38 @@ static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
 }
 
 /* The least distance of the corners of a polygon that is apart, above a plane; not sure where it is not above 0.
- * *ret_sums is whether all are sums of vertices. */
+ * *ret_until is how far P may turn before that may be no more. */
 static double parted_distance(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_parted_polygon *parted,
-                              uint32_t plane, bool *ret_sums) {
+                              uint32_t plane, double *ret_until) {
     pir_space *space = maker->space;
     const pir_space_plane f = space->plane[plane];
     const uint32_t *corner = facet->corners.number + parted->first;
+    pir_plane_reach reach = pir_reach_of(space, plane);
     double least = (double)INFINITY;
-    *ret_sums = true;
+    bool sums = true;
     for (uint32_t i = 0; i < parted->count && least > 0; i++) {
         if (!pir_space_sees_point(space, corner[i]))
             return 0;
         const pir_space_point *p = &space->point[corner[i]];
         const double own = f.n[0] * p->x[0] + f.n[1] * p->x[1] + f.n[2] * p->x[2] - f.d - (f.err + p->err + 0x1p-47);
-        *ret_sums &= p->kind == PIR_POINT_SUM;
         least = own < least ? own : least;
+        sums &= p->kind == PIR_POINT_SUM;
+        if (sums)
+            pir_reach_add(&reach, space, facet, p);
     }
+    *ret_until = sums ? pir_distance_until(maker, plane, least, &reach) : maker->turn;
     return least;
 }
 
 /* Proves that a polygon is above a plane; until when is noted with it. */
 static bool is_parted_by(pir_facet_maker *maker, const pir_plane_facet *facet, pir_parted_polygon *parted,
                          uint32_t plane) {
-    bool sums;
+    double until;
     pir_space_renew_plane(maker->space, plane);
-    const double distance = parted_distance(maker, facet, parted, plane, &sums);
-    if (!(distance > 0))
+    if (!(parted_distance(maker, facet, parted, plane, &until) > 0))
         return false;
     parted->plane = plane;
-    parted->until = sums ? pir_distance_until(maker, plane, distance) : maker->turn;
+    parted->until = until;
     return true;
 }
 
@@ -260,7 +271,7 @@ static bool look_again(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t 
     if (!pir_space_look_at_plane(space, told.plane))
         return false;
     const double distance = pir_sure_distance(space, told.plane, told.point, told.sign);
-    facet->cold_until[i] = pir_distance_until(maker, told.plane, distance);
+    facet->cold_until[i] = side_until(maker, facet, told.plane, told.point, distance);
     return distance > 0 || pir_space_side(space, pir_half(told.plane, false), told.point) == told.sign;
 }
 

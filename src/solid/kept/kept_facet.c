@@ -92,15 +92,25 @@ static uint32_t body_of(const pir_space *space, uint32_t direction) {
     return space->rest->directions.item[space->direction[direction].rest].body;
 }
 
-double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance) {
-    const pir_space *space = maker->space;
+pir_plane_reach pir_reach_of(const pir_space *space, uint32_t plane) {
     const pir_space_plane *f = &space->plane[plane];
-    const uint32_t first = body_of(space, f->direction[0]);
+    pir_plane_reach reach = {.of_edges = f->direction[1] != PIR_SPACE_NONE};
+    reach.first = reach.of_edges ? 0 : body_of(space, f->direction[0]);
+    for (uint32_t k = 0; k < 2; k++)
+        reach.through[k] = space->point[f->point[k ^ reach.first]].x;
+    return reach;
+}
+
+double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance, const pir_plane_reach *reach) {
     if (!(distance > 0))
         return maker->turn;
-    double leeway = distance / maker->diameter[1 - first];
-    if (f->direction[1] != PIR_SPACE_NONE && body_of(space, f->direction[1]) != first)
-        leeway = distance * (f->length - 0x1p-45) / (maker->diameter[0] + maker->diameter[1]);
+    // vertices are within 2^-48 of their doubles, of no more than 1
+    double rate = sqrt(reach->square[1 - reach->first]) + 0x1p-40, slope = distance;
+    if (reach->of_edges) {
+        rate += sqrt(reach->square[0]);
+        slope *= maker->space->plane[plane].length - 0x1p-45;
+    }
+    const double leeway = slope < rate * PIR_TURN_MOST ? slope / rate : PIR_TURN_MOST;
     return maker->turn + leeway * (1 - 0x1p-40) - PIR_TURN_SLACK;
 }
 
@@ -169,17 +179,24 @@ pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet)
     return box;
 }
 
-/* The least distance of the candidates' corners from a plane, on one side of it, of those that are not in it at every
- * rotation; 0 or less where it is not sure, or all are in it. */
-static double distance_of_all(pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t plane, int side) {
+/* The least distance of the candidates' corners from a plane of a pair, on one side of it, of those that are not in it
+ * at every rotation; 0 or less where it is not sure, or all are in it. *ret_until is for how far a turn it stands. */
+static double distance_of_all(pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t plane, int side,
+                              double *ret_until) {
+    const pir_space *space = maker->space;
+    pir_plane_reach reach = pir_reach_of(space, plane);
     double least = (double)INFINITY;
     for (uint32_t i = 0; i < facet->candidates.corner_count && least > 0; i++) {
         const uint32_t corner = facet->candidates.point[i];
-        const double own = pir_sure_distance(maker->space, plane, corner, side);
-        if (own > 0 || side > 0 || own < -0x1p-40 || !pir_identity_holds(maker->space, plane, corner))
-            least = own < least ? own : least;
+        const double own = pir_sure_distance(space, plane, corner, side);
+        if (own <= 0 && side < 0 && own >= -0x1p-40 && pir_identity_holds(maker->space, plane, corner))
+            continue;
+        least = own < least ? own : least;
+        pir_reach_add(&reach, space, facet, &space->point[corner]);
     }
-    return least < (double)INFINITY ? least : 0;
+    least = least < (double)INFINITY ? least : 0;
+    *ret_until = pir_distance_until(maker, plane, least, &reach);
+    return least;
 }
 
 /* --- pairs that are apart --- */
@@ -222,9 +239,8 @@ static uint32_t farthest_plane(pir_facet_maker *maker, const pir_plane_facet *fa
     return best;
 }
 
-static void add_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far, double distance) {
+static void add_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far, double until) {
     pir_space *space = maker->space;
-    const double until = pir_distance_until(maker, far.plane, distance);
     if (!pir_space_grow(space, (void **)&facet->far, &facet->far_room, facet->far_count, sizeof *facet->far) ||
         !pir_space_grow(space, (void **)&facet->far_until, &facet->far_until_room, facet->far_count,
                         sizeof *facet->far_until))
@@ -255,17 +271,17 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
     }
     renew_pair(maker, near->pair);
     near->plane = farthest_plane(maker, facet, sum);
-    double distance = distance_of_all(maker, facet, near->plane, 1);
+    double until, distance = distance_of_all(maker, facet, near->plane, 1, &until);
     for (uint32_t k = 0; k < sum->count && distance <= 0; k++) {
         near->plane = sum->plane[k];
-        distance = distance_of_all(maker, facet, near->plane, 1);
+        distance = distance_of_all(maker, facet, near->plane, 1, &until);
     }
     if (distance <= 0 && gap <= 0)
         return false;
     near->cover = distance > 0 ? PIR_COVER_APART : PIR_COVER_GAP;
     near->until = maker->turn + gap;
     if (distance > 0)
-        add_far(maker, facet, (pir_far_plane){near->plane, at, 1}, distance);
+        add_far(maker, facet, (pir_far_plane){near->plane, at, 1}, until);
     else
         facet->near_until = fmin(facet->near_until, near->until);
     return true;
@@ -275,9 +291,9 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
 
 /* Takes a plane of a pair that may clip. */
 static void take_plane(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at, uint32_t plane) {
-    const double distance = distance_of_all(maker, facet, plane, -1);
-    if (distance > 0) {
-        add_far(maker, facet, (pir_far_plane){plane, at, -1}, distance);
+    double until;
+    if (distance_of_all(maker, facet, plane, -1, &until) > 0) {
+        add_far(maker, facet, (pir_far_plane){plane, at, -1}, until);
         return;
     }
     if (pir_space_grow(maker->space, (void **)&facet->cut, &facet->cut_room, facet->cut_count, sizeof *facet->cut))
@@ -388,9 +404,7 @@ static bool look_again(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t 
     maker->looked++;
     renew_candidates(maker, facet);
     pir_space_renew_plane(maker->space, far.plane);
-    const double distance = distance_of_all(maker, facet, far.plane, far.sign);
-    facet->far_until[i] = pir_distance_until(maker, far.plane, distance);
-    return distance > 0;
+    return distance_of_all(maker, facet, far.plane, far.sign, &facet->far_until[i]) > 0;
 }
 
 /* Does without a plane that is dropped, or that not all corners are on one side of any longer. */

@@ -7,10 +7,11 @@
  * plane bounds how far P may turn before that changes; the side is `cold`, and looked at once P has turned so far. A
  * point where three planes meet may move at any speed: its sides are `hot`, and looked at in every frame.
  *
- * The rates: with P turning by an angle, of a plane with a normal of P, n·(x − y) changes by no more than Q's
- * diameter times it; x and y are sums of vertices, and in P's frame only Q moves. Likewise with a normal of Q. Where
- * the normal is e × g, of unit edges of both, |e × g| times the distance changes by no more than both diameters. And
- * two convex sets, a candidate and a pair's sum, part or approach by no more than the lesser diameter times the angle.
+ * The rates: x = p + q and y = p' + q' are sums of vertices of P and Q. With P turning by an angle, of a plane through
+ * y with a normal of P, n·(x − y) changes by no more than |q − q'| times it: in P's frame only Q moves. Likewise with a
+ * normal of Q. Where the normal is e × g, of unit edges of both, |e × g| times the distance is det(e, g, p − p') +
+ * det(e, g, q − q'), which change by no more than |p − p'| and |q − q'| times it. And two convex sets, a candidate and
+ * a pair's sum, part or approach by no more than the lesser of both diameters times the angle.
  *
  * Invariants of a facet that stands, at the rotation at hand:
  * - Each side that its record has is as it was told, or may be wrong only if P has turned past what is noted there.
@@ -164,9 +165,32 @@ void pir_kept_facet_empty(pir_facet_maker *maker, pir_plane_facet *facet);
 /* Likewise, and frees its memory. */
 void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet);
 
-/* How far P may turn before a sum of vertices at this distance from a plane, not sure where it is not above 0, may be
- * in it: counted from the beginning. */
-double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance);
+/* How far corners of the candidates are from the vertices that a plane of a pair is through, of each body. */
+typedef struct pir_plane_reach {
+    uint32_t first; /* the body of the plane's normal; P where it is of two edges */
+    bool of_edges;
+    const double *through[2];
+    double square[2]; /* the greatest */
+} pir_plane_reach;
+
+pir_plane_reach pir_reach_of(const pir_space *space, uint32_t plane);
+
+/* Takes a corner of the facet's candidates. */
+static inline void pir_reach_add(pir_plane_reach *reach, const pir_space *space, const pir_plane_facet *facet,
+                                 const pir_space_point *corner) {
+    // the body of the facet's normal comes first
+    const uint32_t swapped = facet->key[0].kind == PIR_FACET_OF_Q;
+    for (uint32_t k = 0; k < 2; k++) {
+        const double *x = space->point[corner->of[k ^ swapped]].x, *y = reach->through[k];
+        const double to[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
+        const double square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
+        reach->square[k] = square > reach->square[k] ? square : reach->square[k];
+    }
+}
+
+/* How far P may turn before one of these corners, which are at this distance from the plane at least, not sure where it
+ * is not above 0, may be in it: counted from the beginning. */
+double pir_distance_until(const pir_facet_maker *maker, uint32_t plane, double distance, const pir_plane_reach *reach);
 
 /* A distance by doubles that a point has at least from a plane, on that side; 0 or less where they do not tell. */
 double pir_sure_distance(const pir_space *space, uint32_t plane, uint32_t point, int side);
