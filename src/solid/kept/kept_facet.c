@@ -7,7 +7,6 @@
 #include "base/fetching.h"
 #include "solid/space/identity.h"
 #include "solid/space/places.h"
-#include "solid/space/rest.h"
 #include "solid/sum/convolution.h"
 
 /* Far planes are sorted out once in so many steps. */
@@ -27,6 +26,8 @@ void pir_facet_maker_finish(pir_facet_maker *maker) {
     pir_space_shrink(space, maker->half, maker->half_room, sizeof *maker->half);
     pir_space_shrink(space, maker->order, maker->order_room, sizeof *maker->order);
     pir_space_shrink(space, maker->work, maker->work_room, sizeof *maker->work);
+    pir_space_shrink(space, maker->due, maker->due_room, sizeof *maker->due);
+    pir_space_shrink(space, maker->gone, maker->gone_room, sizeof *maker->gone);
     *maker = (pir_facet_maker){0};
 }
 
@@ -88,14 +89,9 @@ void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
 
 /* --- how long a side stands --- */
 
-static uint32_t body_of(const pir_space *space, uint32_t direction) {
-    return space->rest->directions.item[space->direction[direction].rest].body;
-}
-
 pir_plane_reach pir_reach_of(const pir_space *space, uint32_t plane) {
     const pir_space_plane *f = &space->plane[plane];
-    pir_plane_reach reach = {.of_edges = f->direction[1] != PIR_SPACE_NONE};
-    reach.first = reach.of_edges ? 0 : body_of(space, f->direction[0]);
+    pir_plane_reach reach = {.first = f->body, .of_edges = f->direction[1] != PIR_SPACE_NONE};
     for (uint32_t k = 0; k < 2; k++)
         reach.through[k] = space->point[f->point[k ^ reach.first]].x;
     return reach;
@@ -376,9 +372,9 @@ static bool take_changes(pir_facet_maker *maker, pir_plane_facet *facet) {
     bool changed = false;
     for (uint32_t i = 0; i < facet->near_count; i++) {
         pir_near_pair *near = &facet->near[i];
-        const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
-        if (sum->changed != maker->space->frame)
+        if (!maker->pairs->has_changed[near->pair])
             continue;
+        const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
         changed = true;
         renew_candidates(maker, facet);
         if (near->cover == PIR_COVER_BELOW && pir_plane_is_dropped(maker->pairs, near->plane))
@@ -408,11 +404,11 @@ static bool look_again(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t 
 }
 
 /* Does without a plane that is dropped, or that not all corners are on one side of any longer. */
-static void replace_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far, bool dropped) {
+static void replace_far(pir_facet_maker *maker, pir_plane_facet *facet, pir_far_plane far) {
     renew_candidates(maker, facet);
     if (far.sign > 0 && !prove_apart(maker, facet, far.near))
         join(maker, facet, far.near);
-    if (far.sign < 0 && !dropped)
+    if (far.sign < 0 && !pir_plane_is_dropped(maker->pairs, far.plane))
         take_plane(maker, facet, far.near, far.plane);
 }
 
@@ -443,28 +439,39 @@ static void sort_far(const pir_facet_maker *maker, pir_plane_facet *facet) {
             swap_far(facet, i, facet->far_soon++);
 }
 
-/* Fetches the plane of far[i] where it will be looked at: planes of one facet are far apart in memory. */
-PIR_FETCHING void fetch_ahead(const pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t i) {
-    if (i < facet->far_count && facet->far_until[i] <= maker->turn)
-        PIR_FETCH(&maker->space->plane[facet->far[i].plane].frame);
+/* Lists the far planes that may be wrong, and where pairs have changed those that are dropped. */
+static void list_due(pir_facet_maker *maker, const pir_plane_facet *facet, bool changed) {
+    const uint32_t room = facet->far_count;
+    maker->due_count = maker->gone_count = 0;
+    if (!pir_space_grow(maker->space, (void **)&maker->due, &maker->due_room, room, sizeof *maker->due) ||
+        !pir_space_grow(maker->space, (void **)&maker->gone, &maker->gone_room, room, sizeof *maker->gone))
+        return;
+    for (uint32_t i = 0; i < facet->far_soon; i++)
+        if (facet->far_until[i] <= maker->turn || (changed && pir_plane_is_dropped(maker->pairs, facet->far[i].plane)))
+            maker->due[maker->due_count++] = i;
+    for (uint32_t i = facet->far_soon; i < facet->far_count && changed; i++)
+        if (pir_plane_is_dropped(maker->pairs, facet->far[i].plane))
+            maker->due[maker->due_count++] = i;
 }
 
-/* Looks at the far planes that may be wrong, and at all that are dropped where pairs have changed. */
+/* Looks at the far planes that may be wrong, and does without those that are, and the dropped ones. */
 static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet, bool changed) {
-    const double turn = maker->turn;
-    if (turn >= facet->horizon)
+    if (maker->turn >= facet->horizon)
         sort_far(maker, facet);
-    for (uint32_t i = 0; i < (changed ? facet->far_count : facet->far_soon) && maker->space->status == PIR_OK;) {
-        const pir_far_plane far = facet->far[i];
-        fetch_ahead(maker, facet, i + AHEAD);
-        const bool dropped = changed && pir_plane_is_dropped(maker->pairs, far.plane);
-        if (!dropped && (facet->far_until[i] > turn || look_again(maker, facet, i))) {
-            i++;
+    list_due(maker, facet, changed);
+    // from the last one on: what takes the place of one that goes has been looked at
+    for (uint32_t k = maker->due_count; k-- > 0 && maker->space->status == PIR_OK;) {
+        const uint32_t i = maker->due[k];
+        // planes of one facet are far apart in memory
+        if (k >= AHEAD)
+            PIR_FETCH(&maker->space->plane[facet->far[maker->due[k - AHEAD]].plane].frame);
+        if (!pir_plane_is_dropped(maker->pairs, facet->far[i].plane) && look_again(maker, facet, i))
             continue;
-        }
+        maker->gone[maker->gone_count++] = facet->far[i];
         drop_far(facet, i);
-        replace_far(maker, facet, far, dropped);
     }
+    for (uint32_t k = 0; k < maker->gone_count && maker->space->status == PIR_OK; k++)
+        replace_far(maker, facet, maker->gone[k]);
 }
 
 static void follow_gaps(pir_facet_maker *maker, pir_plane_facet *facet) {

@@ -138,6 +138,9 @@ typedef struct pir_facet_maker {
     pir_polygons polygons;
     pir_fragments fragments, kept;
     uint32_t *half, half_count, half_room, *order, *work, order_room, work_room;
+    uint32_t *due, due_count, due_room; /* of the facet at hand: far planes that are to be looked at */
+    pir_far_plane *gone;                /* of these, those that are no longer so */
+    uint32_t gone_count, gone_room;
     uint64_t made, looked; /* facets clipped, sides looked at, in this frame */
 } pir_facet_maker;
 

@@ -81,8 +81,10 @@ static void list_keys(struct pair_lister *l) {
 static uint32_t make_plane(struct pair_lister *l, pir_sum_facet_key key) {
     if (key.kind < 2) {
         const pir_convex_face face = l->c[key.kind]->face[key.a];
-        return pir_space_add_plane(l->space, (const uint32_t[]){face.normal, PIR_SPACE_NONE}, false,
-                                   (const uint32_t[]){face.point, key.b});
+        const uint32_t made = pir_space_add_plane(l->space, (const uint32_t[]){face.normal, PIR_SPACE_NONE}, false,
+                                                  (const uint32_t[]){face.point, key.b});
+        l->space->plane[made].body = (uint8_t)key.kind;
+        return made;
     }
     const pir_convex_edge *e = &l->c[0]->edge[key.a], *g = &l->c[1]->edge[key.b];
     return pir_space_add_plane(l->space, (const uint32_t[]){e->direction, g->direction}, key.turned,
@@ -213,7 +215,7 @@ static void list_pair(pir_kept_pairs *pairs, uint32_t at) {
     pair->count = lister.count;
     pair->first_new = added;
     pair->new_count = pairs->added_count - added;
-    pair->changed = pair->new_count > 0 || pairs->dropped_count > dropped ? table->space->frame : 0;
+    pairs->has_changed[at] = pair->new_count > 0 || pairs->dropped_count > dropped;
 }
 
 /* Notes where the ends of all edges of a body's pieces are among their vertices. */
@@ -235,13 +237,16 @@ void pir_kept_pairs_init(pir_kept_pairs *pairs, pir_sign_table *table) {
     pir_space *space = table->space;
     *pairs = (pir_kept_pairs){.table = table, .count = table->convexes[0].count * table->convexes[1].count};
     pairs->pair = PIR_ZEROED(&space->allocator, pir_kept_pair_sum, pairs->count);
-    if (!pairs->pair)
+    pairs->has_changed = PIR_ZEROED(&space->allocator, uint8_t, pairs->count);
+    if (!pairs->pair || !pairs->has_changed)
         space->status = PIR_ERR_MEMORY;
     for (int k = 0; k < 2 && space->status == PIR_OK; k++)
         find_ends(pairs, k);
     for (uint32_t i = 0; i < pairs->count && space->status == PIR_OK; i++)
         list_pair(pairs, i);
     pairs->added_count = 0;
+    if (pairs->has_changed)
+        memset(pairs->has_changed, 0, pairs->count * sizeof *pairs->has_changed);
 }
 
 void pir_kept_pairs_finish(pir_kept_pairs *pairs) {
@@ -253,6 +258,7 @@ void pir_kept_pairs_finish(pir_kept_pairs *pairs) {
         pir_space_shrink(space, pairs->pair[i].plane, pairs->pair[i].plane_room, sizeof *pairs->pair[i].plane);
     }
     PIR_FREE(&space->allocator, pairs->pair, pairs->count);
+    PIR_FREE(&space->allocator, pairs->has_changed, pairs->count);
     for (int k = 0; k < 2; k++)
         PIR_FREE(&space->allocator, pairs->edge_at[k], pairs->table->convexes[k].edge_count);
     pir_space_shrink(space, pairs->changed, pairs->changed_room, sizeof *pairs->changed);
@@ -310,6 +316,8 @@ void pir_kept_pairs_settle(pir_kept_pairs *pairs) {
             space->spare_planes.number[space->spare_planes.count++] = plane;
     }
     pairs->dropped_count = 0;
+    for (uint32_t i = 0; i < pairs->changed_count; i++)
+        pairs->has_changed[pairs->changed[i]] = 0;
 }
 
 pir_space_box pir_kept_pair_box(const pir_kept_pairs *pairs, uint32_t pair) {

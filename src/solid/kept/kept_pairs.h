@@ -24,7 +24,6 @@ typedef struct pir_kept_pair_sum {
     pir_sum_facet_key *key;
     uint32_t *plane;
     uint32_t count, room, plane_room;
-    uint32_t changed;              /* the frame in which planes came or went */
     uint32_t renewed;              /* the frame in which all planes had their doubles made */
     uint64_t met;                  /* the number of the facet's look round that came to it last */
     uint32_t first_new, new_count; /* of that frame, in `added` */
@@ -43,6 +42,7 @@ typedef struct pir_kept_pairs {
     uint32_t *changed, changed_count, changed_room; /* pairs of this frame */
     uint32_t *added, added_count, added_room;       /* planes of this frame */
     uint32_t *dropped, dropped_count, dropped_room; /* likewise */
+    uint8_t *has_changed;                           /* per pair: whether planes came or went in this frame */
     uint8_t *is_dropped;                            /* per plane of the space */
     uint32_t is_dropped_room;
     pir_sum_facet_key *key, *touched; /* scratch, as are the next */

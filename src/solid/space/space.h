@@ -65,6 +65,7 @@ typedef struct pir_space_plane {
     uint32_t point[2];     /* likewise */
     double length;         /* of the product of its directions; 1 of one alone */
     bool turned;           /* the normal is the reverse of what the directions say */
+    uint8_t body;          /* of the normal, for whoever made the plane; 0 of two directions */
     uint32_t frame;        /* as of a point */
 } pir_space_plane;
 
