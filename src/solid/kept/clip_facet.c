@@ -6,6 +6,11 @@
 #include "solid/kept/kept_facet.h"
 #include "solid/space/identity.h"
 
+/* A facet is clipped again rather than that more planes are taken as new ones in one frame, or that its points where
+ * planes meet have many more sides than clipping told. */
+#define SPARED_MOST    6
+#define HOT_MOST(told) (2 * (told) + 32)
+
 void pir_kept_facet_unclip(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_give_back(maker->space, &maker->space->spare_points, &facet->made);
     facet->hot_count = facet->cold_count = facet->parted_count = facet->met_count = 0;
@@ -186,6 +191,7 @@ static void keep_record(pir_facet_maker *maker, pir_plane_facet *facet) {
     for (uint32_t i = 0; i < record->points.count; i++)
         pir_number_list_add(&facet->made, space, record->points.number[i]);
     facet->fleeting = record->fleeting;
+    facet->hot_clipped = facet->hot_count;
 }
 
 /* Adds the sides of a part that is left. Parts do not overlap, so that what they share is led along both ways. */
@@ -255,7 +261,8 @@ static bool is_spared(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
     uint32_t at = 0;
     while (at < facet->cut_count && facet->cut[at].plane != told.plane)
         at++;
-    if (told.sign > 0 || at == facet->cut_count || !is_idle(facet, told.plane))
+    if (told.sign > 0 || at == facet->cut_count || maker->spared++ >= SPARED_MOST ||
+        facet->hot_count > HOT_MOST(facet->hot_clipped) || !is_idle(facet, told.plane))
         return false;
     forget_sides(maker, facet, told.plane);
     pir_kept_facet_amend_plane(maker, facet, facet->cut[at].near, told.plane);
@@ -383,6 +390,7 @@ static bool outlives_dropped(const pir_facet_maker *maker, pir_plane_facet *face
 }
 
 bool pir_kept_facet_stands(pir_facet_maker *maker, pir_plane_facet *facet) {
+    maker->spared = 0;
     facet->stands = facet->stands && !facet->fleeting &&
                     (maker->pairs->dropped_count == 0 || outlives_dropped(maker, facet)) &&
                     cold_sides_stand(maker, facet) && hot_sides_stand(maker, facet) && parted_stand(maker, facet);

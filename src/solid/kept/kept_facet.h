@@ -121,7 +121,8 @@ typedef struct pir_plane_facet {
     pir_number_list corners; /* of what is parted or met */
     uint32_t hot_count, hot_room, cold_count, cold_room, parted_count, parted_room, met_count, met_room;
     uint32_t cold_until_room;
-    double told_until; /* the least of what is noted with cold sides */
+    uint32_t hot_clipped; /* hot sides that clipping told */
+    double told_until;    /* the least of what is noted with cold sides */
     uint32_t survivors;
     pir_segment_list edge;
     pir_facet_outline outline;
@@ -141,6 +142,7 @@ typedef struct pir_facet_maker {
     uint32_t *due, due_count, due_room; /* of the facet at hand: far planes that are to be looked at */
     pir_far_plane *gone;                /* of these, those that are no longer so */
     uint32_t gone_count, gone_room;
+    uint32_t spared;       /* of the facet at hand: planes taken as new ones, in this frame */
     uint64_t made, looked; /* facets clipped, sides looked at, in this frame */
 } pir_facet_maker;
 
@@ -184,6 +186,8 @@ static inline void pir_reach_add(pir_plane_reach *reach, const pir_space *space,
     // the body of the facet's normal comes first
     const uint32_t swapped = facet->key[0].kind == PIR_FACET_OF_Q;
     for (uint32_t k = 0; k < 2; k++) {
+        if (k == reach->first && !reach->of_edges)
+            continue;
         const double *x = space->point[corner->of[k ^ swapped]].x, *y = reach->through[k];
         const double to[3] = {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
         const double square = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];

@@ -382,7 +382,7 @@ static void list_near(pir_kept_glue *glue, pir_facet_outline *outline) {
         pir_vertex_grid_find(&glue->grid, space, glue->point, box, &glue->found);
         for (uint32_t i = 0; i < glue->found.count; i++) {
             const uint32_t v = glue->found.number[i];
-            if (v == run->a || v == run->b || !is_near(glue, run, v, radius))
+            if (v == run->a || v == run->b || (skin > 0 && !is_near(glue, run, v, radius)))
                 continue;
             pir_number_list_add(&outline->near, space, r);
             pir_number_list_add(&outline->near, space, v);
