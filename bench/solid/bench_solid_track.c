@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * Sums of solids that turn: updates beside rebuilds, at the same rotations in one run, about an axis that changes every
- * 50 frames.
+ * 50 frames. Ten updates, then the ten rebuilds: each finds in the caches what its like has left there.
  *
  * solid_track.csv has a line for each pair and step: the median time of an update, of an update with facets glued
  * together, of a rebuild, which glues them; which part of all planes of candidates the updates clipped; and the kB that
@@ -18,6 +18,7 @@
 #include "solid/models.h"
 
 #define FRAMES_MOST 200
+#define BLOCK       10
 
 struct pair {
     const char *name, *p, *q;
@@ -34,7 +35,7 @@ static void check(pir_status status) {
 
 static double now_ms(void) {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
@@ -68,14 +69,47 @@ static pir_quat turned(pir_quat q, uint32_t frame, double angle) {
                       b.w * q.z + b.x * q.y - b.y * q.x + b.z * q.w, b.w * q.w - b.x * q.x - b.y * q.y - b.z * q.z};
 }
 
+/* The times of frames, in ms. */
+struct times {
+    double update[FRAMES_MOST], glued[FRAMES_MOST], rebuild[FRAMES_MOST];
+};
+
+/* Updates a sum through the frames first .. end; what is clipped, and of how many planes, is added. */
+static pir_quat follow(pir_solid_sum *kept, pir_quat rotation, uint32_t steps, uint32_t first, uint32_t end,
+                       struct times *times, uint64_t ret_clipped[2]) {
+    for (uint32_t i = first; i < end; i++) {
+        pir_solid_sum_info info;
+        rotation = turned(rotation, i, 8 * atan(1) / steps);
+        const double begun = now_ms();
+        check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
+        times->update[i] = now_ms() - begun;
+        check(pir_solid_sum_describe(kept, &info));
+        times->glued[i] = now_ms() - begun;
+        ret_clipped[0] += info.clipped;
+        ret_clipped[1] += info.candidates;
+    }
+    return rotation;
+}
+
+/* Makes the sums of the same frames anew. */
+static void rebuild(pir_solid_sum *fresh, pir_quat rotation, uint32_t steps, uint32_t first, uint32_t end,
+                    struct times *times) {
+    for (uint32_t i = first; i < end; i++) {
+        rotation = turned(rotation, i, 8 * atan(1) / steps);
+        const double begun = now_ms();
+        check(pir_solid_sum_rotate(fresh, rotation, PIR_SOLID_REBUILD));
+        times->rebuild[i] = now_ms() - begun;
+    }
+}
+
 static void run(FILE *csv, const struct pair *pair, uint32_t steps) {
-    static double update[FRAMES_MOST], glued[FRAMES_MOST], rebuild[FRAMES_MOST];
+    static struct times times;
     const uint32_t frames = results_count(pair->frames);
     pir_solid *p = solid_model_new(pair->p, 1), *q = solid_model_new(pair->q, pair->q_divisor);
     pir_quat rotation = {.3, .1, .2, .9};
     pir_solid_sum *kept, *fresh;
     pir_solid_sum_info info = {0};
-    uint64_t clipped = 0, planes = 0;
+    uint64_t clipped[2] = {0};
     size_t bytes = 0;
     const pir_allocator counted = {resize_counted, &bytes};
     pir_solid_sum_options options = pir_solid_sum_options_default();
@@ -84,24 +118,17 @@ static void run(FILE *csv, const struct pair *pair, uint32_t steps) {
     const size_t bytes_at_rest = bytes;
     check(pir_solid_sum_create(p, q, rotation, NULL, &fresh));
     check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
-    for (uint32_t i = 0; i < frames; i++) {
-        rotation = turned(rotation, i, 8 * atan(1) / steps);
-        const double begun = now_ms();
-        check(pir_solid_sum_rotate(kept, rotation, PIR_SOLID_UPDATE));
-        const double turned_at = now_ms();
-        check(pir_solid_sum_describe(kept, &info));
-        const double glued_at = now_ms();
-        check(pir_solid_sum_rotate(fresh, rotation, PIR_SOLID_REBUILD));
-        rebuild[i] = now_ms() - glued_at;
-        update[i] = turned_at - begun;
-        glued[i] = glued_at - begun;
-        clipped += info.clipped;
-        planes += info.candidates;
+    for (uint32_t i = 0; i < frames; i += BLOCK) {
+        const uint32_t end = i + BLOCK < frames ? i + BLOCK : frames;
+        const pir_quat from = rotation;
+        rotation = follow(kept, from, steps, i, end, &times, clipped);
+        rebuild(fresh, from, steps, i, end, &times);
     }
+    check(pir_solid_sum_describe(kept, &info));
     char line[256];
     snprintf(line, sizeof line, "%s,%u,%u,%llu,%u,%.3f,%.3f,%.3f,%.3g,%.3g", pair->name, steps, frames,
-             (unsigned long long)info.candidates, info.facets, median(update, frames), median(glued, frames),
-             median(rebuild, frames), (double)clipped / (double)planes,
+             (unsigned long long)info.candidates, info.facets, median(times.update, frames),
+             median(times.glued, frames), median(times.rebuild, frames), (double)clipped[0] / (double)clipped[1],
              (double)(bytes - bytes_at_rest) * 1e-3 / (double)info.candidates);
     fprintf(csv, "%s\n", line);
     printf("%s\n", line);
