@@ -435,16 +435,19 @@ static void make_facet(pir_kept_sum *kept, pir_plane_facet *facet) {
 
 static void update_facet(pir_kept_sum *kept, pir_plane_facet *facet, bool meets) {
     pir_facet_maker *maker = &kept->maker;
+    bool upright = false;
     if (facet->based) {
         pir_kept_facet_follow(maker, facet);
         if (meets) {
             const uint32_t count = find_near(kept, pir_kept_facet_box(maker, facet));
             pir_kept_facet_meet(maker, facet, kept->found, count);
         }
-        if (pir_kept_facet_stands(maker, facet))
+        // sides of a facet that stands are told by its walls, too
+        upright = pir_kept_facet_is_upright(maker, facet);
+        if (pir_kept_facet_stands(maker, facet) && upright)
             return;
     }
-    if (!facet->based || !pir_kept_facet_is_upright(maker, facet))
+    if (!upright)
         make_facet(kept, facet);
     if (kept->space->status == PIR_OK)
         pir_kept_facet_clip(maker, facet);
