@@ -166,6 +166,33 @@ static void facets_stand_in_the_order_of_a_sum_made_anew(void **state) {
     pir_solid_release(q);
 }
 
+/* The last of these turns the plane of a facet that stands to where it is parallel to the walls of its candidate. */
+static void facets_stand_past_their_walls(void **state) {
+    (void)state;
+    static const pir_quat rotations[] = {{0, -2, -2, 4}, {-3, 0, 4, 4}, {4, -3, 0, 9}, {-1, -4, 2, 3}, {2, 0, 0, 7}};
+    static const double scale[2] = {0.45867668220873659, 1.5748203511152419};
+    pir_solid *p = solid_model_new("star5", 1), *q = solid_model_new("stella", 2);
+    pir_solid_sum_options options = pir_solid_sum_options_default();
+    pir_solid_sum *sum[2] = {NULL, NULL};
+    options.difference = true;
+    for (size_t first = 0; first + 1 < sizeof rotations / sizeof *rotations; first++) {
+        for (int k = 0; k < 2; k++) {
+            assert_int_equal(pir_solid_sum_create(p, q, rotations[first], &options, &sum[k]), PIR_OK);
+            for (int operand = 0; operand < 2; operand++)
+                assert_int_equal(pir_solid_sum_set_scale(sum[k], (pir_operand)operand, scale[operand]), PIR_OK);
+        }
+        for (size_t i = first; i < sizeof rotations / sizeof *rotations; i++) {
+            assert_int_equal(pir_solid_sum_rotate(sum[0], rotations[i], PIR_SOLID_UPDATE), PIR_OK);
+            assert_int_equal(pir_solid_sum_rotate(sum[1], rotations[i], PIR_SOLID_REBUILD), PIR_OK);
+            expect_same(sum[0], sum[1], "star5 and stella", i);
+        }
+        for (int k = 0; k < 2; k++)
+            pir_solid_sum_destroy(sum[k]);
+    }
+    pir_solid_release(p);
+    pir_solid_release(q);
+}
+
 /* The exact volume of a sum. */
 static void volume_of(pir_solid_sum *sum, mpq_t ret) {
     pir_mesh *mesh = NULL;
@@ -367,6 +394,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sum_is_that_made_anew_at_every_rotation),
         cmocka_unit_test(facets_stand_in_the_order_of_a_sum_made_anew),
+        cmocka_unit_test(facets_stand_past_their_walls),
         cmocka_unit_test(scaled_sum_is_that_of_scaled_solids),
         cmocka_unit_test(refused_call_leaves_the_sum_as_it_was),
         cmocka_unit_test(sum_outlives_rotations_that_run_out_of_memory),
