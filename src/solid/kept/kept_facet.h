@@ -7,11 +7,12 @@
  * plane bounds how far P may turn before that changes; the side is `cold`, and looked at once P has turned so far. A
  * point where three planes meet may move at any speed: its sides are `hot`, and looked at in every frame.
  *
- * The rates: x = p + q and y = p' + q' are sums of vertices of P and Q. With P turning by an angle, of a plane through
- * y with a normal of P, n·(x − y) changes by no more than |q − q'| times it: in P's frame only Q moves. Likewise
- * with a normal of Q. Where the normal is e × g, of unit edges of both, |e × g| times the distance is
- * det(e, g, p − p') + det(e, g, q − q'), which change by no more than |p − p'| and |q − q'| times it. And two convex
- * sets, a candidate and a pair's sum, part or approach by no more than the lesser of both diameters times the angle.
+ * The rates: x = p + q and y = p' + q' are sums of vertices of P and Q. With P turning by an angle, of a plane
+ * through y with a normal of P, n·(x − y) changes by no more than |q − q'| times it: in P's frame only Q
+ * moves. Likewise with a normal of Q. Where the normal is e × g, of unit edges of both, |e × g| times the
+ * distance is det(e, g, p − p') + det(e, g, q − q'), which change by no more than |p − p'| and |q − q'|
+ * times it. And two convex sets, a candidate and a pair's sum, part or approach by no more than the lesser of both
+ * diameters times the angle.
  *
  * Invariants of a facet that stands, at the rotation at hand:
  * - Each side that its record has is as it was told, or may be wrong only if P has turned past what is noted there.
