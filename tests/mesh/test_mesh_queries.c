@@ -171,7 +171,7 @@ static void check_ray(surface *s, uint64_t number, pir_surface_ray ray) {
 
 static uint64_t cases(void) {
     const char *text = getenv("PIR_TEST_CASES");
-    return text ? strtoull(text, NULL, 10) : 150;
+    return text ? strtoull(text, NULL, 10) : 75;
 }
 
 /* Segments between points in general, along axes, towards corners and through the middles of edges. */

@@ -205,7 +205,7 @@ static uint64_t count_of(const char *name, uint64_t usual) {
 /* Each pair of meshes is asked at several poses, so that fronts and warm starts are held to the truth too. */
 static void NearestAndFarthestTrianglesAreExact(void **state) {
     (void)state;
-    uint64_t poses = count_of("PIR_TEST_POSES", 600), first = count_of("PIR_TEST_FIRST", 0);
+    uint64_t poses = count_of("PIR_TEST_POSES", 300), first = count_of("PIR_TEST_FIRST", 0);
     truth t;
     mpq_inits(t.least, t.most, t.square, NULL);
     for (uint64_t number = first; number < first + poses;) {

@@ -79,7 +79,7 @@ typedef struct pir_scene_worker {
     pir_posed_surface *surface; /* of a question about surfaces, and what it is answered by */
     pir_surface_contact *met;
     const pir_polytope **beside; /* the pieces next to the one that is asked */
-    uint64_t *near_triangle; /* those that it is asked about, where no other is near */
+    uint64_t *near_triangle;     /* those that it is asked about, where no other is near */
     uint32_t surface_capacity, met_capacity, beside_capacity, near_triangle_capacity;
     pir_pair_statistics ways;                    /* of its questions, where they are counted */
     uint32_t told[3], told_contacts, told_again; /* events of each kind, contacts of all, those told again */
