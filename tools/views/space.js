@@ -153,3 +153,59 @@ function viewOf(canvas, looking, scene) {
     rows.push([...towards.map(x => -x), away]);
     return new Float32Array([0, 1, 2, 3].flatMap(c => rows.map(row => row[c])));
 }
+
+/*
+ * What a page of bodies is played and looked at by: its buttons, its slider and its keys. `page` has the canvas, what
+ * `looking` is at first (`start`), place() and last(), the places that may be shown, show(place), draw(), and rate(),
+ * the places of a second; `keys` are those of its own.
+ */
+function controlsOf(page, keys) {
+    let playing = false, before = null;
+    const button = id => document.getElementById(id), slider = button("slider");
+    function tick(now) {
+        if (!playing)
+            return;
+        const next = page.place() + (before === null ? 0 : (now - before) * page.rate() / 1000);
+        before = now;
+        page.show(next >= page.last() ? 0 : next);
+        requestAnimationFrame(tick);
+    }
+    function play(on) {
+        playing = on;
+        before = null;
+        button("play").textContent = on ? "pause" : "play";
+        if (on)
+            requestAnimationFrame(tick);
+    }
+    /* One place, and no more playing. */
+    function step(by) {
+        play(false);
+        page.show(by < 0 ? Math.ceil(page.place()) - 1 : Math.floor(page.place()) + 1);
+    }
+    function reset() {
+        Object.assign(page.looking, page.start);
+        page.draw();
+    }
+    function nearer(by) {
+        page.looking.zoom = Math.min(50, Math.max(0.1, page.looking.zoom * by));
+        page.draw();
+    }
+    const does = {
+        " ": () => play(!playing), ArrowLeft: () => step(-1), ArrowRight: () => step(1), Home: () => page.show(0),
+        End: () => page.show(page.last()), "+": () => nearer(1.2), "-": () => nearer(1 / 1.2), r: reset, ...keys,
+    };
+    slider.addEventListener("input", () => page.show(Number(slider.value)));
+    for (const [id, key] of [["play", " "], ["back", "ArrowLeft"], ["on", "ArrowRight"], ["reset", "r"]])
+        button(id).addEventListener("click", does[key]);
+    document.addEventListener("keydown", event => {
+        const on = document.activeElement; // which has keys of its own
+        if (!does[event.key] || event.ctrlKey || event.altKey || event.metaKey || on.matches("select, input") ||
+            (event.key === " " && on.matches("button")))
+            return;
+        event.preventDefault();
+        does[event.key]();
+    });
+    turnByHand(page.canvas, page.looking, 89, page.draw);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", page.draw);
+    return {play, reset};
+}
