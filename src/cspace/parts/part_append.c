@@ -10,6 +10,7 @@
 
 #include "base/report.h"
 #include "cspace/parts/part_file.h"
+#include "polytope/file/file_places.h"
 
 /* Seconds between the moments when what was written is made to reach the disk. */
 #define SYNC_EVERY 2.0
@@ -22,18 +23,6 @@ static double seconds_now(void) {
 
 static pir_status fail_part(const pir_part *part, const char *what, pir_report *report) {
     return pir_fail(report, PIR_ERR_FILE, "%s: cannot %s: %s", part->path, what, strerror(errno));
-}
-
-static bool write_all(int descriptor, const void *data, size_t size, uint64_t at) {
-    for (size_t done = 0; done < size;) {
-        ssize_t n = pwrite(descriptor, (const char *)data + done, size - done, (off_t)(at + done));
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return false;
-        done += (size_t)n;
-    }
-    return true;
 }
 
 /*
@@ -50,7 +39,7 @@ static pir_status find_end(pir_part *part, const pir_parts *parts, pir_report *r
     part->end = sizeof header;
     if (pir_read_at(part->descriptor, &header, sizeof header, 0) != PIR_OK) {
         header = (pir_part_header){PIR_PART_MAGIC, parts->plan->hash};
-        if (ftruncate(part->descriptor, 0) == 0 && write_all(part->descriptor, &header, sizeof header, 0))
+        if (ftruncate(part->descriptor, 0) == 0 && pir_write_at(part->descriptor, &header, sizeof header, 0))
             return PIR_OK;
         return fail_part(part, "write", report);
     }
@@ -89,16 +78,16 @@ pir_status pir_part_open(pir_part *part, const pir_parts *parts, uint32_t number
 pir_status pir_part_append(pir_part *part, const pir_unit *unit, pir_report *report) {
     pir_unit_header header = pir_unit_header_of(unit, part->sections);
     uint64_t at = part->end;
-    bool written = write_all(part->descriptor, &header, sizeof header, at);
+    bool written = pir_write_at(part->descriptor, &header, sizeof header, at);
     at += sizeof header;
     for (int s = 0; written && s < PIR_UNIT_SECTION_COUNT; s++)
         if (part->sections & 1u << s) {
             size_t size = unit->slices * sizeof *unit->count[s];
-            written = write_all(part->descriptor, unit->count[s], size, at);
+            written = pir_write_at(part->descriptor, unit->count[s], size, at);
             at += size;
         }
     for (int s = 0; written && s < PIR_UNIT_SECTION_COUNT; s++) {
-        written = write_all(part->descriptor, unit->packed[s].data, unit->packed[s].used, at);
+        written = pir_write_at(part->descriptor, unit->packed[s].data, unit->packed[s].used, at);
         at += unit->packed[s].used;
     }
     double now = seconds_now();

@@ -3,10 +3,10 @@
 #include "cspace/parts/part_file.h"
 #include "cspace/parts/pack.h"
 
-#include <errno.h>
 #include <stddef.h>
 #include <string.h>
-#include <unistd.h>
+
+#include "polytope/file/file_places.h"
 
 #define HASH_START UINT64_C(0x9e3779b97f4a7c15)
 
@@ -53,18 +53,6 @@ pir_unit_header pir_unit_header_of(const pir_unit *unit, unsigned sections) {
 bool pir_unit_header_holds(const pir_unit_header *header, const pir_plan *plan) {
     return header->magic == PIR_UNIT_MAGIC && header->hash == hash_header(header) && header->number < plan->units &&
            header->slices == pir_plan_count(plan, header->number);
-}
-
-pir_status pir_read_at(int descriptor, void *data, size_t size, uint64_t at) {
-    for (size_t got = 0; got < size;) {
-        ssize_t n = pread(descriptor, (char *)data + got, size - got, (off_t)(at + got));
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return n < 0 ? PIR_ERR_FILE : PIR_ERR_FORMAT;
-        got += (size_t)n;
-    }
-    return PIR_OK;
 }
 
 /* Whether each section has the chunks that its counts add up to. */

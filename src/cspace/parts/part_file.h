@@ -41,9 +41,6 @@ static inline uint64_t pir_unit_body(const pir_unit_header *header, unsigned sec
     return size;
 }
 
-/* Reads exactly so many bytes from `at` on: PIR_ERR_FORMAT where the file ends before, PIR_ERR_FILE. */
-pir_status pir_read_at(int descriptor, void *data, size_t size, uint64_t at);
-
 /*
  * Reads the unit whose header stands at `at` into `unit`, which has room for its slices, and checks it against its
  * checksums: its counts, its packed bytes, and the checks of what these were made of. Errors: PIR_ERR_FORMAT,

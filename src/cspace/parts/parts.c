@@ -15,6 +15,7 @@
 #include "cspace/parts/chunks.h"
 #include "cspace/parts/part_file.h"
 #include "polytope/file/file_name.h"
+#include "polytope/file/file_places.h"
 #include "polytope/file/target.h"
 
 /* At most what a chunk takes in the file's index. */

@@ -14,6 +14,7 @@
 
 #include "base/report.h"
 #include "polytope/file/file_name.h"
+#include "polytope/file/file_places.h"
 
 #define MAGIC      UINT64_C(0x31304e414c505249) /* "IRPLAN01" */
 #define SYNC_EVERY 2                            /* seconds between the moments when bytes are made to reach the disk */
@@ -47,30 +48,6 @@ static uint64_t hash_of(const struct block_header *header, uint64_t at, const ui
     return pir_hash_words(pir_hash_words(PIR_HASH_START, before, sizeof before), data, header->size);
 }
 
-static bool read_all(int descriptor, void *data, size_t size, uint64_t at) {
-    for (size_t done = 0; done < size;) {
-        const ssize_t n = pread(descriptor, (char *)data + done, size - done, (off_t)(at + done));
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return false;
-        done += (size_t)n;
-    }
-    return true;
-}
-
-static bool write_all(int descriptor, const void *data, size_t size, uint64_t at) {
-    for (size_t done = 0; done < size;) {
-        const ssize_t n = pwrite(descriptor, (const char *)data + done, size - done, (off_t)(at + done));
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n <= 0)
-            return false;
-        done += (size_t)n;
-    }
-    return true;
-}
-
 static pir_status fail(const pir_block_journal *journal, const char *what) {
     return pir_fail(journal->report, PIR_ERR_FILE, "%s: cannot %s: %s", pir_short_name(journal->path), what,
                     strerror(errno));
@@ -83,11 +60,11 @@ static bool read_block(const pir_block_journal *journal, uint64_t at, uint64_t e
                        pir_bytes *block) {
     const pir_allocator a = pir_allocator_or_default(NULL);
     block->used = 0;
-    if (at + sizeof *header > end || !read_all(journal->descriptor, header, sizeof *header, at) ||
+    if (at + sizeof *header > end || pir_read_at(journal->descriptor, header, sizeof *header, at) != PIR_OK ||
         header->size > end - at - sizeof *header || !pir_bytes_reserve(block, &a, header->size))
         return false;
     block->used = header->size;
-    return read_all(journal->descriptor, block->data, header->size, at + sizeof *header) &&
+    return pir_read_at(journal->descriptor, block->data, header->size, at + sizeof *header) == PIR_OK &&
            header->hash == hash_of(header, at, block->data);
 }
 
@@ -154,13 +131,13 @@ static pir_status begin(pir_block_journal *journal, uint64_t question, bool resu
     if (fstat(journal->descriptor, &file) != 0)
         return fail(journal, "read");
     journal->end = sizeof header;
-    if (resume && read_all(journal->descriptor, &found, sizeof found, 0)) {
+    if (resume && pir_read_at(journal->descriptor, &found, sizeof found, 0) == PIR_OK) {
         if (memcmp(&found, &header, sizeof found) != 0)
             return pir_fail(journal->report, PIR_ERR_FORMAT, "%s: it is of another question, or of another version",
                             pir_short_name(journal->path));
         return scan(journal, (uint64_t)file.st_size);
     }
-    if (ftruncate(journal->descriptor, 0) != 0 || !write_all(journal->descriptor, &header, sizeof header, 0))
+    if (ftruncate(journal->descriptor, 0) != 0 || !pir_write_at(journal->descriptor, &header, sizeof header, 0))
         return fail(journal, "write");
     return PIR_OK;
 }
@@ -201,8 +178,8 @@ pir_status pir_block_journal_add(pir_block_journal *journal, uint64_t number, co
     struct timespec now;
     pthread_mutex_lock(&journal->lock);
     header.hash = hash_of(&header, journal->end, block->data);
-    bool good = write_all(journal->descriptor, &header, sizeof header, journal->end) &&
-                write_all(journal->descriptor, block->data, block->used, journal->end + sizeof header);
+    bool good = pir_write_at(journal->descriptor, &header, sizeof header, journal->end) &&
+                pir_write_at(journal->descriptor, block->data, block->used, journal->end + sizeof header);
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (good && now.tv_sec - journal->synced > SYNC_EVERY) {
         good = fdatasync(journal->descriptor) == 0;
