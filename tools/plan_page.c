@@ -72,11 +72,9 @@ static bool print_solid(FILE *file, const pir_solid *solid) {
     if (status == PIR_OK && (points.failed || loops.failed || facets.failed))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
-        fputs("{\"points\":\"", file);
-        bytes_print(file, points.at, points.size);
-        fputs("\",\"facets\":\"", file);
-        bytes_print(file, facets.at, facets.size);
-        fputs("\"}", file);
+        fputs("{", file);
+        forms_print(file, &points, &facets);
+        fputs("}", file);
     } else {
         complain_status("plan: --page", status, &report);
     }

@@ -228,11 +228,9 @@ static bool print_shape(FILE *file, const struct world_shape *shape) {
     if (status == PIR_OK && (points.failed || facets.failed))
         status = PIR_ERR_MEMORY;
     if (status == PIR_OK) {
-        fputs("{\"points\":\"", file);
-        bytes_print(file, points.at, points.size);
-        fputs("\",\"facets\":\"", file);
-        bytes_print(file, facets.at, facets.size);
-        fprintf(file, "\",\"surface\":%s}", world_shape_is_surface(shape) ? "true" : "false");
+        fputs("{", file);
+        forms_print(file, &points, &facets);
+        fprintf(file, ",\"surface\":%s}", world_shape_is_surface(shape) ? "true" : "false");
     } else
         complain("simulate: %s", pir_status_text(status));
     free(points.at);

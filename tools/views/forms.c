@@ -20,3 +20,11 @@ pir_status forms_add(struct bytes *points, struct bytes *facets, const pir_polyt
     pir_mesh_destroy(mesh);
     return PIR_OK;
 }
+
+void forms_print(FILE *file, const struct bytes *points, const struct bytes *facets) {
+    fputs("\"points\":\"", file);
+    bytes_print(file, points->at, points->size);
+    fputs("\",\"facets\":\"", file);
+    bytes_print(file, facets->at, facets->size);
+    fputs("\"", file);
+}

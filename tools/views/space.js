@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What pages of bodies share: programs of WebGL, meshes and the way they are looked at.
+// Shared by pages of bodies: programs of WebGL, meshes, the way they are looked at, and controls.
 
 const FOCAL = 2.2;
 
@@ -155,9 +155,9 @@ function viewOf(canvas, looking, scene) {
 }
 
 /*
- * What a page of bodies is played and looked at by: its buttons, its slider and its keys. `page` has the canvas, what
- * `looking` is at first (`start`), place() and last(), the places that may be shown, show(place), draw(), and rate(),
- * the places of a second; `keys` are those of its own.
+ * The buttons, the slider and the keys of a page of bodies. `page` has the canvas, what `looking` is at first, `start`,
+ * place() and last(), the places that may be shown, show(place), draw(), and rate(), the places of a second; `keys`
+ * are those of its own.
  */
 function controlsOf(page, keys) {
     let playing = false, before = null;

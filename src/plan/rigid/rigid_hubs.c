@@ -108,7 +108,7 @@ static bool add_number(pir_rigid_job *job) {
     return true;
 }
 
-/* Which part of the inner ones a hub is in is a choice that doubles make. */
+/* The part of the inner ones that a hub is in is a choice that doubles make. */
 static void place_hub(const pir_rigid_leaf *own, pir_rigid_hub *hub) {
     hub->in = PIR_PLAN_NONE;
     for (uint32_t i = 0; i < own->inner.cells && hub->in == PIR_PLAN_NONE; i++)
