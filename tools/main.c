@@ -65,11 +65,13 @@ static void hold_standard_streams(void) {
 }
 
 int main(int argc, char **argv) {
-    static char printed[1 << 16];
+    static char printed[1 << 16], complained[1 << 15];
     hold_standard_streams();
     // help, which is shorter, is then written at once, so that a failure is told with its reason
     if (!isatty(STDOUT_FILENO))
         setvbuf(stdout, printed, _IOFBF, sizeof printed);
+    // a line is written at once, not by characters, between which what other processes say would come
+    setvbuf(stderr, complained, _IOLBF, sizeof complained);
     // A reader that goes away is a failed write, to be told like any other; so is a limit on the size of files.
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);

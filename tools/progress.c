@@ -39,7 +39,9 @@ void progress_show(struct progress *progress, uint64_t done) {
 }
 
 void progress_end(struct progress *progress) {
-    if (progress->shown)
+    if (progress->shown) {
         fputs("\r\033[K", stderr);
+        fflush(stderr);
+    }
     progress->shown = false;
 }

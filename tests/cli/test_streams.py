@@ -60,9 +60,8 @@ class StreamTest(CommandTest):
         return sorted(str(p.relative_to(self.path)) for p in self.path.rglob("*"))
 
     def start(self, *args, **how):
-        how.setdefault("preexec_fn", with_own_signals)
-        running = subprocess.Popen([self.command, *map(str, args)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, **how)
+        how = {"preexec_fn": with_own_signals, "stderr": subprocess.PIPE, **how}
+        running = subprocess.Popen([self.command, *map(str, args)], stdout=subprocess.PIPE, text=True, **how)
         self.addCleanup(running.kill)
         return running
 
@@ -116,6 +115,17 @@ class Targets(StreamTest):
             reader.join()
             self.assertEqual(got, [plain.read_bytes()], args)
             self.assertTrue(stat.S_ISFIFO(os.lstat(fifo).st_mode))
+
+    @unittest.skipUnless(hasattr(os, "O_DIRECT") and hasattr(os, "pipe2"), "no pipes of packets")
+    def test_a_complaint_is_one_write(self):
+        # what others write into the same place comes before or after it
+        reader, writer = os.pipe2(os.O_DIRECT)
+        with open(reader, "rb", buffering=0) as packets:
+            with open(writer, "wb") as stderr:
+                self.start("info", "no\nmodel.off", stderr=stderr).wait(timeout=60)
+            line = packets.read(4096)
+            self.assertTrue(line.startswith(b"pirouette: no") and line.endswith(b"\n"), line)
+            self.assertEqual(packets.read(4096), b"")
 
     def test_a_full_device_is_a_failed_write_and_stays(self):
         node = self.path / "full"
