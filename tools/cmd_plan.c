@@ -597,11 +597,13 @@ static bool on_progress(void *context, uint32_t made, uint32_t written) {
     return true;
 }
 
-static bool end_at_once(void *context, uint32_t made, uint32_t written) {
-    (void)context;
-    (void)made;
+/* Has the time begin with the first boxes, and end with them. */
+static bool end_with_boxes(void *context, uint32_t made, uint32_t written) {
+    int64_t *start = context;
     (void)written;
-    return false;
+    if (made == 0)
+        *start = clock_now();
+    return made == 0;
 }
 
 /* Makes the first boxes alone, and tells what as many as may be would take, were all like these. */
@@ -609,15 +611,18 @@ static int foresee(struct plan_run *run) {
     pir_rigid_plan_options how = run->how;
     pir_rigid_plan_info info;
     pir_rigid_plan *plan = NULL;
-    how.progress = end_at_once;
+    int64_t start = clock_now();
+    how.progress = end_with_boxes;
+    how.context = &start;
     how.report = &run->report;
-    const int64_t start = clock_now();
     const pir_status status = pir_rigid_plan_create(&run->motions, &how, &plan);
     if (status != PIR_OK)
         return complain_status("plan", status, &run->report);
     pir_rigid_plan_describe(plan, &info);
     pir_rigid_plan_destroy(plan);
-    const double seconds = (double)(clock_now() - start) / 1e9 / info.boxes * how.boxes;
+    // a path that is found without boxes takes no longer than this
+    const double boxes = info.boxes > 0 ? how.boxes / (double)info.boxes : 1;
+    const double seconds = (double)(clock_now() - start) / 1e9 * boxes;
     if (args_has(run->args, "--json")) {
         struct json json = json_new();
         json_add_count(&json, json.root, "robot_pieces", info.robot_pieces);

@@ -322,7 +322,8 @@ typedef struct pir_rigid_plan_info {
  *
  * Rotations are divided into boxes, finer where the question needs it. Translations at which two pieces meet at
  * every rotation of a box are blocked, so where free cells of all boxes leave the ends apart there is no path. A path
- * is made of exact translations at single rotations, and of turns that pieces around P over the turn prove to be free.
+ * is made of motions that sweeps prove to be free, found by pushing ways to where P has room; or of exact translations
+ * at single rotations, and of turns that pieces around P over the turn prove to be free.
  * An answer other than unknown is proven, and of two questions that only differ in their budgets no two are answered
  * otherwise.
  *
@@ -347,8 +348,8 @@ PIR_API void pir_rigid_plan_destroy(pir_rigid_plan *plan);
 PIR_API void pir_rigid_plan_describe(const pir_rigid_plan *plan, pir_rigid_plan_info *ret_info);
 
 /**
- * A pose of the path. The first is where it begins, the last where it ends. Between two the motion keeps the rotation
- * and goes straight, or keeps the translation and turns by the lesser angle about one axis, as slerp does.
+ * A pose of the path. The first is where it begins, the last where it ends. Between two the motion is that of sweep.h:
+ * it goes straight and turns evenly by the lesser angle about one axis, as slerp does, or it does one of these alone.
  *
  * index     below the count of steps.
  * ret_pose  the pose; its quaternion is of any length.

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "plan/band/band.h"
 #include "plan/turn_bodies.h"
 #include "plan/way.h"
 
@@ -156,5 +157,114 @@ pir_status pir_rigid_path_make(const pir_rigid_job *job, pir_rigid_result *resul
     free(route.by);
     free(route.queue);
     free(route.turn);
+    return status;
+}
+
+/* --- ways that are pushed --- */
+
+/* Distances that may be asked for; how many ways there are, are pushed before the best are tried, are tried then. */
+#define WORK  ((uint64_t)1 << 21)
+#define WAYS  48
+#define FIRST 8
+#define TRIES 3
+
+static pir_vec3 point_of(const double x[3]) {
+    return (pir_vec3){x[0], x[1], x[2]};
+}
+
+/* The 24 rotations of a cube, of which many bodies are made. */
+static pir_quat cube_rotation(uint32_t number) {
+    for (int i = 0;; i++) {
+        const int q[4] = {i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 - 1, i / 27 % 3 - 1};
+        const int size = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+        const int last = q[3] ? q[3] : q[2] ? q[2] : q[1] ? q[1] : q[0];
+        if (last > 0 && size != 3 && number-- == 0)
+            return (pir_quat){q[0], q[1], q[2], q[3]};
+    }
+}
+
+/* Adds a way that turns, goes straight, and turns again: at a rotation of a cube, or the middle of a first box. */
+static pir_status add_way(const pir_rigid_question *question, pir_band *band, uint32_t number, uint64_t *work,
+                          double *ret_room) {
+    const uint32_t of = number / 2;
+    // all charts soon have their turn
+    const pir_quat middle = number % 2 == 0
+                                ? cube_rotation(of * 7 % 24)
+                                : pir_rotation_box_middle(pir_rotation_box_root(of * 13 % PIR_ROTATION_ROOTS));
+    const pir_vec3 from = point_of(question->at[0]), to = point_of(question->at[1]);
+    const pir_pose way[4] = {{question->rotation[0], from}, {middle, from}, {middle, to}, {question->rotation[1], to}};
+    return pir_band_add(band, way, 4, work, ret_room);
+}
+
+static bool is_to_go_on(const pir_rigid_question *question) {
+    return !question->progress || question->progress(question->context, 0, 0);
+}
+
+/* Pushes ways; what cannot be asked or pushed is left to boxes. */
+static pir_status push_ways(const pir_rigid_question *question, pir_pose **ret_step, uint32_t *ret_steps) {
+    const pir_band_question bodies = {question->robot, question->obstacles, question->wide, question->low,
+                                      question->high};
+    pir_band *band = NULL;
+    uint64_t work = WORK;
+    double most = -INFINITY, room;
+    bool goes_on = true;
+    pir_status status = pir_band_create(&bodies, &band);
+    for (uint32_t i = 0; i < WAYS && status == PIR_OK && goes_on && !*ret_step && work > 0; i++) {
+        status = add_way(question, band, i, &work, &room);
+        most = fmax(most, room);
+        goes_on = is_to_go_on(question);
+        if ((i + 1) % FIRST != 0)
+            continue;
+        // where none nearly fits, others will hardly do
+        if (most <= -1)
+            break;
+        for (int k = 0; k < TRIES && status == PIR_OK && goes_on && !*ret_step; k++) {
+            status = pir_band_try(band, &work, ret_step, ret_steps);
+            goes_on = is_to_go_on(question);
+        }
+    }
+    pir_band_destroy(band);
+    if (!*ret_step && !goes_on)
+        return PIR_ERR_LIMIT;
+    return status == PIR_ERR_MEMORY ? status : PIR_OK;
+}
+
+/* Gives all processes the path of the first one, or what it ended with. */
+static pir_status share_path(const pir_plan_ranks *ranks, pir_status status, pir_pose **step, uint32_t *steps) {
+    const unsigned char failed = (unsigned char)status;
+    const void *own = status == PIR_OK ? (const void *)*step : &failed;
+    const size_t size = ranks->number > 0 ? 0 : status == PIR_OK ? *steps * sizeof **step : sizeof failed;
+    void *all = NULL;
+    size_t got = 0;
+    if (!ranks->exchange(ranks->context, own, size, &all, &got))
+        return PIR_ERR_MEMORY;
+    if (got == sizeof failed)
+        return (pir_status) * (const unsigned char *)all;
+    if (ranks->number == 0 || got == 0)
+        return status;
+    *steps = (uint32_t)(got / sizeof **step);
+    *step = malloc(got);
+    if (!*step)
+        return PIR_ERR_MEMORY;
+    memcpy(*step, all, got);
+    return PIR_OK;
+}
+
+pir_status pir_rigid_path_push(const pir_rigid_question *question, const pir_plan_ranks *ranks,
+                               pir_rigid_result *result) {
+    pir_pose *step = NULL;
+    uint32_t steps = 0;
+    pir_status status = PIR_OK;
+    if (!ranks || ranks->number == 0)
+        status = push_ways(question, &step, &steps);
+    if (ranks)
+        status = share_path(ranks, status, &step, &steps);
+    if (status != PIR_OK) {
+        free(step);
+    } else if (step) {
+        result->answer = PIR_TURN_PLAN_PATH;
+        result->step = step;
+        result->steps = steps;
+    }
     return status;
 }

@@ -2,6 +2,9 @@
 /*
  * Whether a body can be moved between two poses by translations and any turns, between closed bodies.
  *
+ * First some straight ways are pushed to where the robot has room (plan/band): most paths are found so, in a time that
+ * hardly depends on how narrow they are. Where none is, boxes are made.
+ *
  * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner sums
  * (inner_sums.h): what they have is blocked at every rotation of the box. Free cells of boxes that share a rotation
  * are joined unless they are proven to be apart. Where the ends are not connected, there is no path.

@@ -262,6 +262,9 @@ pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_
                             pir_rigid_result *ret_result) {
     pir_rigid_job job = {.question = question, .makers = makers};
     *ret_result = (pir_rigid_result){0};
+    const pir_status status = pir_rigid_path_push(question, makers->ranks, ret_result);
+    if (status != PIR_OK || ret_result->answer == PIR_TURN_PLAN_PATH)
+        return status == PIR_ERR_LIMIT ? PIR_OK : status;
     pir_rigid_hubs_begin(&job);
     pir_rigid_boxes_begin(&job);
     while (job.status == PIR_OK && !take_round(&job, proof, ret_result))
