@@ -5,7 +5,8 @@
  * A pair holds what persists: the bodies, and hints from which the next answer starts. Hints are never believed: an
  * answer follows from proofs at its own placement, so it has the same bits whatever the hints were.
  *
- * The one exception is a proof that the bodies are apart, with the poses that it was made at (query/proof/proof.h).
+ * The two exceptions are a proof that the bodies are apart, with the poses that it was made at (query/proof/proof.h),
+ * and the distances of a surface's triangles from x, with their placement (surface/kept_lows.h).
  */
 #ifndef PIR_PAIR_PAIR_H
 #define PIR_PAIR_PAIR_H

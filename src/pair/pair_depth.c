@@ -7,9 +7,13 @@
  * The true facets of D that triangles of the surface lie in are proven by exact slopes (facet.h), and compared exactly.
  * The search ends when each triangle either lies in a proven facet or is farther from x, for certain, than the least of
  * these: then that is the least of all facets of D, and every facet that ties with it is among those compared.
+ *
+ * Where the facet that holds the foot of x is known, most triangles need no look: they were farther from x by more than
+ * they can have come nearer since (surface/kept_lows.h).
  */
 #include "pair/pair_task.h"
 
+#include "pair/surface/kept_lows.h"
 #include "query/decide/touch.h"
 #include "query/walk/foot.h"
 #include "query/walk/foot_walk.h"
@@ -534,6 +538,9 @@ static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
         uint32_t t = next_open(overlap, &found, bound), corner;
         if (t == overlap->surface->count) {
             *ret_facet = found.least.facet;
+            // what is known of a triangle beside discs is no distance of it
+            if (!found.aside)
+                pir_surface_keep(overlap->surface, overlap->exact->frame, overlap->placement, overlap->room);
             return found.least.found;
         }
         if (is_passed(overlap, t, added, &found))
@@ -557,6 +564,12 @@ static bool find_least(const struct overlap *overlap, pir_facet *ret_facet) {
 static bool end(pir_task *task, pir_level level) {
     pir_pair_task_of(task)->pair->level = (uint8_t)level;
     return true;
+}
+
+/* The answer from task->same, the least facet. */
+static bool inside_same(pir_task *task) {
+    pir_task_inside(task, &task->same.facet, task->same.slack);
+    return end(task, PIR_LEVEL_OVERLAPPING);
 }
 
 static struct overlap overlap_of(pir_task *task) {
@@ -593,6 +606,34 @@ static bool finish(pir_task *task, const struct overlap *overlap, enum about abo
     return about == ABOUT_FACET && task->may_near && pir_task_settle(task, facet) && end(task, PIR_LEVEL_NEAR);
 }
 
+/* The triangles that lie in a facet of D, which are mostly those of the last answer. */
+static uint64_t triangles_in(const struct overlap *overlap, const pir_facet *facet) {
+    pir_surface_lows *lows = &overlap->surface->lows;
+    const pir_witness f = facet->faces, g = lows->faces;
+    if (!(f.p.kind == g.p.kind && f.p.index == g.p.index && f.q.kind == g.q.kind && f.q.index == g.q.index)) {
+        lows->of_facet =
+            overlap->room->loops->within(overlap->surface, corners_in(overlap, facet, overlap->surface->used));
+        lows->faces = f;
+    }
+    return lows->of_facet;
+}
+
+/* Whether the facet that holds the foot of x is the least, as the distances that are kept with the surface tell. */
+static bool is_least_still(const struct overlap *overlap) {
+    const pir_same_facet *same = &overlap->task->same;
+    const double error = overlap->placement->error * same->facet.err;
+    pir_surface_step step = {.frame = overlap->exact->frame,
+                             .placement = overlap->placement,
+                             .least = same->slack - error,
+                             .most = same->slack + error};
+    uint64_t near;
+    if (!overlap->task->has_same || !overlap->surface->lows.is_known ||
+        !pir_surface_approach(overlap->surface, overlap->room, &step, &near))
+        return false;
+    near = near != 0 ? near & ~triangles_in(overlap, &same->facet) : near;
+    return pir_surface_stays(overlap->surface, &step, near, overlap->room);
+}
+
 /* By the surface of the last answer, mended where x has left it. */
 static bool by_surface(pir_task *task) {
     const pir_surface *surface = pir_pair_task_of(task)->pair->surface;
@@ -600,6 +641,11 @@ static bool by_surface(pir_task *task) {
     if (!task->was_deep || task->same.is_far || !surface || surface->count == 0)
         return false;
     const struct overlap overlap = overlap_of(task);
+    if (is_least_still(&overlap)) {
+        task->hint->deep = true;
+        return inside_same(task);
+    }
+    overlap.surface->lows.is_known = false;
     return finish(task, &overlap, place(&overlap) ? ABOUT_X : repair(&overlap, &facet), &facet);
 }
 
@@ -653,8 +699,7 @@ static bool settle_least(pir_task *task, const pir_axes_slack *least) {
     }
     if (!(same->slack + task->placement->error * same->facet.err < least->next))
         return false;
-    pir_task_inside(task, &same->facet, same->slack);
-    return end(task, PIR_LEVEL_OVERLAPPING);
+    return inside_same(task);
 }
 
 /* The answer by the axes of both bodies. Where they leave it open, tells whether they are likely to do so again. */

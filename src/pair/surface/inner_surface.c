@@ -16,11 +16,8 @@
 
 bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
                        pir_surface_room *room) {
-    room->centre = centre;
-    room->det_error = 4 * error * reach * reach;
-    room->normal_error = 10 * error * reach;
-    room->has_sides = false;
-    room->loops->corners(surface, frame, room);
+    pir_surface_set_centre(centre, error, reach, room);
+    room->loops->corners(surface, surface->used, frame, room);
     return room->loops->planes(room, surface->corner[0], surface->count, &room->plane) == 0;
 }
 
@@ -33,6 +30,7 @@ static void put(pir_surface *surface, uint32_t t, uint32_t i, uint32_t j, uint32
 }
 
 void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t b[4]) {
+    surface->lows.is_known = false;
     surface->used = 15;
     surface->count = 4;
     // loops take whole lanes, past the count too

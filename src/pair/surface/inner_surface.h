@@ -18,17 +18,32 @@
 #ifndef PIR_PAIR_SURFACE_INNER_SURFACE_H
 #define PIR_PAIR_SURFACE_INNER_SURFACE_H
 
+#include <pirouette/witness.h>
+
 #include "query/frame/frame.h"
 
 /* With v corners a surface like a sphere has 2 v − 4 triangles. */
 #define PIR_SURFACE_CORNERS   32
 #define PIR_SURFACE_TRIANGLES 64
 
+/* How far triangles are from x at a placement, at least: see kept_lows.h. */
+typedef struct pir_surface_lows {
+    bool is_known;
+    uint8_t rest; /* how many surfaces more are not kept, since that told little */
+    pir_vec3 x;
+    pir_quat unit;                    /* of the rotation */
+    double taken;                     /* what triangles may have come nearer since their distances were found */
+    float low[PIR_SURFACE_TRIANGLES]; /* not below 0 */
+    pir_witness faces;                /* the faces of a facet of D, or none, */
+    uint64_t of_facet;                /* and the triangles that lie in it */
+} pir_surface_lows;
+
 typedef struct pir_surface {
     uint32_t used; /* a bit for each corner that a triangle has */
     uint32_t count;
     uint32_t a[PIR_SURFACE_CORNERS], b[PIR_SURFACE_CORNERS];
     uint8_t corner[3][PIR_SURFACE_TRIANGLES];
+    pir_surface_lows lows;
 } pir_surface;
 
 /* Planes of triangles. */
@@ -62,8 +77,8 @@ typedef struct pir_surface_room {
 typedef struct pir_surface_loops {
     const char *name;
 
-    /* Places the corners that are used. */
-    void (*corners)(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room);
+    /* Places some corners: a bit for each. */
+    void (*corners)(const pir_surface *surface, uint32_t some, const pir_frame *frame, pir_surface_room *room);
 
     /*
      * The planes of triangles, whose corners are in three rows of PIR_SURFACE_TRIANGLES. Returns those whose `low` is
@@ -74,6 +89,9 @@ typedef struct pir_surface_loops {
 
     /* The triangles whose `low` is at most this. */
     uint64_t (*below)(const pir_surface *surface, const pir_surface_room *room, double limit);
+
+    /* The triangles whose distance that is kept is at most this, which is not below 0. */
+    uint64_t (*near)(const pir_surface *surface, float limit);
 
     /* The least `low` of some triangles; HUGE_VAL where there are none. */
     double (*least)(const pir_surface *surface, const pir_surface_room *room, uint64_t triangles);
@@ -93,6 +111,14 @@ typedef struct pir_surface_loops {
 
 /* Empties the surface and gives it the tetrahedron of four vertices of D. */
 void pir_surface_begin(pir_surface *surface, const uint32_t a[4], const uint32_t b[4]);
+
+/* Sets the centre, a point as pir_surface_place takes it, and the errors there. */
+static inline void pir_surface_set_centre(pir_vec3 centre, double error, double reach, pir_surface_room *room) {
+    room->centre = centre;
+    room->det_error = 4 * error * reach * reach;
+    room->normal_error = 10 * error * reach;
+    room->has_sides = false;
+}
 
 /*
  * Places the corners about `centre`, a point of the frame exactly as given that is off by at most `error`. False

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* The text of a surface's loops (inner_surface.h), one for all processors: several triangles at a time. */
+#include <string.h>
+
 #include "base/lane_text.h"
 #include "pair/surface/inner_surface.h"
 
-PIR_LANES_TARGET static void corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
+PIR_LANES_TARGET static void corners(const pir_surface *surface, uint32_t some, const pir_frame *frame,
+                                     pir_surface_room *room) {
     const pir_mat3 r = frame->r;
     const double columns[3][4] = {{r.m[0][0], r.m[1][0], r.m[2][0], 0},
                                   {r.m[0][1], r.m[1][1], r.m[2][1], 0},
                                   {r.m[0][2], r.m[1][2], r.m[2][2], 0}},
                  centre[4] = {room->centre.x, room->centre.y, room->centre.z, 0};
-    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
+    for (uint32_t rest = some; rest; rest &= rest - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(rest);
         const pir_vec3 a = frame->p.vertex[surface->a[i]];
         // a body's vertices can be read one number past the last
@@ -55,6 +58,18 @@ PIR_LANES_TARGET static uint64_t below(const pir_surface *surface, const pir_sur
     uint64_t found = 0;
     for (uint32_t t = 0; t < surface->count; t += PIR_WIDTH)
         found |= (uint64_t)pir_where(pir_load(&room->plane.low[t]) <= pir_all(limit)) << t;
+    return found & pir_surface_first(surface->count);
+}
+
+PIR_LANES_TARGET static uint64_t near(const pir_surface *surface, float limit) {
+    // floats that are not below 0 are in the order of their bits, as numbers below 2^31
+    uint32_t bits;
+    memcpy(&bits, &limit, sizeof bits);
+    uint64_t found = 0;
+    for (uint32_t t = 0; t < surface->count; t += 2 * PIR_WIDTH) {
+        const pir_number_lanes less = *(const pir_number_lanes *)&surface->lows.low[t] - (bits + 1);
+        found |= (uint64_t)pir_numbers_where(0 - (less >> 31)) << t;
+    }
     return found & pir_surface_first(surface->count);
 }
 
@@ -122,5 +137,5 @@ PIR_LANES_TARGET static uint32_t either(const uint32_t vertex[PIR_SURFACE_CORNER
     return found;
 }
 
-const pir_surface_loops PIR_LANES_OF(pir_surface) = {PIR_LANES_NAME, corners, planes, below, least,
-                                                     seen,           about,   within, either};
+const pir_surface_loops PIR_LANES_OF(pir_surface) = {PIR_LANES_NAME, corners, planes, below,  near,
+                                                     least,          seen,    about,  within, either};

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/* Distances of triangles that are kept: see kept_lows.h. */
+#include "pair/surface/kept_lows.h"
+
+/* Where more triangles than this may be near, the whole surface is placed about as fast. */
+#define MOST_NEAR 12
+
+/* Surfaces that are not kept after that: about round bodies as many are near at the next placements. */
+#define LOWS_REST 31
+
+/* Below 1 by more than a float rounds. */
+#define FLOATED (1 - 0x1p-22)
+
+/* A length as a float, not above it. */
+static inline float lowered(double length) {
+    return length > 0 ? (float)(length * FLOATED) : 0;
+}
+
+static inline void keep_placement(pir_surface_lows *lows, const pir_frame *frame, const pir_placement *placement,
+                                  double taken) {
+    lows->taken = taken;
+    lows->x = placement->x;
+    lows->unit = frame->unit;
+}
+
+void pir_surface_keep(pir_surface *surface, const pir_frame *frame, const pir_placement *placement,
+                      const pir_surface_room *room) {
+    pir_surface_lows *lows = &surface->lows;
+    if (lows->rest > 0) {
+        lows->rest--;
+        return;
+    }
+    for (uint32_t t = 0; t < surface->count; t++)
+        lows->low[t] = lowered(room->plane.low[t]);
+    keep_placement(lows, frame, placement, 0);
+    lows->faces.p.kind = PIR_FEATURE_NONE;
+    lows->is_known = true;
+}
+
+/* How far corners have come at most since the last placement, and that they are off by. */
+static inline double way_of_corners(const pir_surface_lows *lows, const pir_frame *frame,
+                                    const pir_placement *placement) {
+    const pir_vec3 way = pir_vec_sub(placement->x, lows->x);
+    const double turn = pir_rotation_angle_bound(lows->unit, frame->unit);
+    return sqrt(pir_vec_dot(way, way)) + turn * frame->p.size + 0x1p-40 * placement->reach + 4 * placement->error;
+}
+
+bool pir_surface_approach(const pir_surface *surface, const pir_surface_room *room, pir_surface_step *step,
+                          uint64_t *ret_near) {
+    const pir_surface_lows *lows = &surface->lows;
+    step->way = way_of_corners(lows, step->frame, step->placement);
+    step->taken = lows->taken + step->way;
+    // triangles of the facet are as far as that; about a long way floats tell little
+    if (!(step->least > step->way) || !(step->taken < step->placement->reach))
+        return false;
+    *ret_near = room->loops->near(surface, (float)((step->most + step->taken) / FLOATED));
+    return true;
+}
+
+/* Places some triangles about x, as a fan in the room. False where there are too many, or one is not certain. */
+static bool place_some(const pir_surface *surface, const pir_surface_step *step, uint64_t triangles,
+                       pir_surface_room *room) {
+    const pir_placement *placement = step->placement;
+    pir_surface_fan *fan = &room->fan;
+    uint32_t corners = 0, count = 0;
+    for (; triangles && count < MOST_NEAR; triangles &= triangles - 1, count++) {
+        const uint32_t t = (uint32_t)__builtin_ctzll(triangles);
+        for (int k = 0; k < 3; k++) {
+            fan->corner[k][count] = surface->corner[k][t];
+            corners |= 1u << surface->corner[k][t];
+        }
+    }
+    fan->count = count;
+    if (triangles)
+        return false;
+    pir_surface_set_centre(placement->x, placement->error, placement->reach, room);
+    room->loops->corners(surface, corners, step->frame, room);
+    return room->loops->planes(room, fan->corner[0], count, &fan->plane) == 0;
+}
+
+bool pir_surface_stays(pir_surface *surface, const pir_surface_step *step, uint64_t near, pir_surface_room *room) {
+    pir_surface_lows *lows = &surface->lows;
+    const double *low = room->fan.plane.low;
+    if (near != 0 && !place_some(surface, step, near, room)) {
+        lows->rest = LOWS_REST;
+        return false;
+    }
+    uint32_t i = 0;
+    for (uint64_t rest = near; rest; rest &= rest - 1, i++)
+        if (!(low[i] > step->most))
+            return false;
+    i = 0;
+    for (uint64_t rest = near; rest; rest &= rest - 1, i++)
+        lows->low[__builtin_ctzll(rest)] = lowered(low[i] + step->taken);
+    keep_placement(lows, step->frame, step->placement, step->taken);
+    return true;
+}
