@@ -702,6 +702,17 @@ static bool settle_least(pir_task *task, const pir_axes_slack *least) {
     return inside_same(task);
 }
 
+/* Whether x is within task->same, and of two parallelepipeds no other slack may be as little. */
+static bool is_only_near(pir_task *task) {
+    const pir_pair *pair = pir_pair_task_of(task)->pair;
+    const pir_axes_lanes *p = &pair->axes_p->lanes, *q = &pair->axes_q->lanes;
+    const pir_same_facet *same = &task->same;
+    const double error = task->placement->error;
+    return task->has_same && same->slack > 0 && p->has_halves && q->has_halves &&
+           pir_pair_task_of(task)->workspace->axes->near(p, q, &task->frame->r, task->placement->x, error,
+                                                         same->slack + error * same->facet.err) == 1;
+}
+
 /* The answer by the axes of both bodies. Where they leave it open, tells whether they are likely to do so again. */
 static bool ask_axes(pir_task *task, bool *ret_open) {
     const pir_pair *pair = pir_pair_task_of(task)->pair;
@@ -709,6 +720,9 @@ static bool ask_axes(pir_task *task, bool *ret_open) {
     pir_axes_slack least;
     pir_same_facet other;
     pir_vec3 n;
+    *ret_open = false;
+    if (is_only_near(task))
+        return inside_same(task);
     pir_axes_least(pir_pair_task_of(task)->workspace->axes, p, q, task->frame, task->placement, &least);
     // along edges that are parallel there is no axis, and less than any slack is said
     const bool is_none = least.low < -task->placement->reach;

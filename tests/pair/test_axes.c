@@ -18,6 +18,7 @@
 #include "pair/pair.h"
 #include "query/frame/body.h"
 #include "support/bodies.h"
+#include "support/vectors.h"
 
 /* A body that may have few axes, turned or not, its vertices in any order. */
 static pir_polytope *small_body(test_random *random) {
@@ -44,12 +45,12 @@ struct scene {
     const pir_axes *axes_p, *axes_q;
 };
 
-static void make_scene(test_random *random, struct scene *scene) {
+static void set_scene(test_random *random, pir_polytope *p, pir_polytope *q, struct scene *scene) {
     static pir_rotation_integers integers;
     pir_rotation rotation = {.integers = &integers};
     memset(scene, 0, sizeof *scene);
-    scene->p = small_body(random);
-    scene->q = small_body(random);
+    scene->p = p;
+    scene->q = q;
     assert_int_equal(pir_polytope_reflect(scene->p, &scene->reflected), PIR_OK);
     assert_int_equal(pir_frame_set_bodies(&scene->frame, scene->reflected, scene->q), PIR_OK);
     assert_int_equal(pir_rotation_set(&rotation, test_rotation(random)), PIR_OK);
@@ -61,6 +62,11 @@ static void make_scene(test_random *random, struct scene *scene) {
     double far = ldexp(test_random_unit(random), exponent);
     assert_int_equal(pir_frame_place(&scene->frame, (pir_vec3){far * d.x, far * d.y, far * d.z}, &scene->placement),
                      PIR_OK);
+}
+
+static void make_scene(test_random *random, struct scene *scene) {
+    pir_polytope *p = small_body(random);
+    set_scene(random, p, small_body(random), scene);
 }
 
 static void free_scene(struct scene *scene) {
@@ -138,6 +144,124 @@ static void the_least_slack_is_the_depth(void **state) {
     assert_true(few > cases / 5 && ahead > few / 4);
 }
 
+/* --- parallelepipeds --- */
+
+/* A parallelepiped about any point, at times as thin as a 2^-20th, its vertices sums without rounding. */
+static pir_polytope *leaning_box(test_random *random) {
+    test_points points = {.count = 8};
+    pir_vec3 half[3];
+    for (int k = 0; k < 3; k++) {
+        const double size = test_random_below(random, 4) ? 1 : ldexp(1, -test_random_between(random, 1, 20));
+        int64_t c[3];
+        for (int i = 0; i < 3; i++)
+            c[i] = test_random_between(random, -1000, 1000) + (i == k ? 1500 : 0);
+        half[k] = (pir_vec3){size * (double)c[0], size * (double)c[1], size * (double)c[2]};
+    }
+    const double at = (double)test_random_between(random, -3, 3);
+    for (int i = 0; i < 8; i++) {
+        points.at[i] = (pir_vec3){at, 2 * at, -at};
+        for (int k = 0; k < 3; k++)
+            points.at[i] = test_add(points.at[i], half[k], i >> k & 1 ? 1 : -1);
+    }
+    return test_polytope(&points);
+}
+
+/* The slack at x along a direction, from all vertices, in numbers of twice the length where there are such. */
+static long double slack_along(const struct scene *scene, const long double n[3]) {
+    const pir_body *of[2] = {&scene->frame.p, &scene->frame.q};
+    const double x[3] = {scene->placement.x.x, scene->placement.x.y, scene->placement.x.z};
+    const double(*m)[3] = scene->frame.r.m;
+    long double slack = 0, length = sqrtl(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int body = 0; body < 2; body++) {
+        long double most = -HUGE_VALL;
+        for (uint32_t v = 0; v < of[body]->polytope->vertex_count; v++) {
+            const double a[3] = {of[body]->vertex[v].x, of[body]->vertex[v].y, of[body]->vertex[v].z};
+            long double to = 0;
+            for (int k = 0; k < 3; k++)
+                to += n[k] * (body == 0 ? (long double)m[k][0] * a[0] + (long double)m[k][1] * a[1] +
+                                              (long double)m[k][2] * a[2]
+                                        : (long double)a[k]);
+            most = to > most ? to : most;
+        }
+        slack += most;
+    }
+    for (int k = 0; k < 3; k++)
+        slack -= n[k] * x[k];
+    return slack / length;
+}
+
+/* Three directions of each body, of normals or edges, as all look from Q. */
+static void directions_of(const struct scene *scene, bool of_p, bool edges, pir_vec3 to[3]) {
+    const pir_axes_lanes *lanes = of_p ? &scene->axes_p->lanes : &scene->axes_q->lanes;
+    const double(*from)[PIR_AXES_PADDED] = edges ? lanes->edge : lanes->normal;
+    for (int i = 0; i < 3; i++) {
+        const pir_vec3 d = {from[0][i], from[1][i], from[2][i]};
+        to[i] = of_p ? pir_mat_apply(&scene->frame.r, d) : d;
+    }
+}
+
+/* All 30 slacks; 1 where edges are next to parallel. */
+static void list_slacks(const struct scene *scene, long double slack[30]) {
+    pir_vec3 lines[2][3], along[2][3];
+    for (int body = 0; body < 2; body++) {
+        directions_of(scene, body == 0, false, lines[body]);
+        directions_of(scene, body == 0, true, along[body]);
+    }
+    for (int i = 0; i < 15; i++) {
+        const pir_vec3 d = along[0][i % 3], e = along[1][i < 6 ? 0 : (i - 6) / 3];
+        const long double across[3] = {(long double)d.y * e.z - (long double)d.z * e.y,
+                                       (long double)d.z * e.x - (long double)d.x * e.z,
+                                       (long double)d.x * e.y - (long double)d.y * e.x};
+        const pir_vec3 line = lines[i / 3 % 2][i % 3];
+        for (int back = 0; back < 2; back++) {
+            const long double sign = back ? -1 : 1;
+            const long double n[3] = {sign * (i < 6 ? line.x : across[0]), sign * (i < 6 ? line.y : across[1]),
+                                      sign * (i < 6 ? line.z : across[2])};
+            const bool is_none = n[0] * n[0] + n[1] * n[1] + n[2] * n[2] < 1e-12L;
+            slack[2 * i + back] = is_none ? 1 : slack_along(scene, n);
+        }
+    }
+}
+
+/* Those that are below the bound are counted, and of those above it by more than a little none. */
+static void slacks_of_parallelepipeds_near_a_bound_are_counted(void **state) {
+    (void)state;
+    uint32_t asked = 0, one = 0;
+    for (uint64_t i = 0; i < 2000; i++) {
+        test_random random = test_random_case("parallelepipeds", i);
+        struct scene scene;
+        set_scene(&random, leaning_box(&random), leaning_box(&random), &scene);
+        if (scene.axes_p && scene.axes_q && scene.axes_p->lanes.has_halves && scene.axes_q->lanes.has_halves) {
+            const pir_axes_lanes *p = &scene.axes_p->lanes, *q = &scene.axes_q->lanes;
+            const double error = scene.placement.error;
+            long double slack[30];
+            list_slacks(&scene, slack);
+            for (int k = 0; k < 30; k++) {
+                const double most = k == 0 ? 1e-300 : (double)slack[k] * (1 + 0x1p-40);
+                uint32_t least = 0, greatest = 0, found = 0;
+                for (int j = 0; j < 30; j++) {
+                    least += slack[j] < most;
+                    // edges next to parallel are known a millionth as well
+                    greatest += slack[j] < most + 1e7 * error || slack[j] == 1;
+                }
+                for (unsigned version = 0; most > 0 && pir_processor_version(version); version++) {
+                    const uint32_t near = pir_processor_version(version)->axes->near(p, q, &scene.frame.r,
+                                                                                     scene.placement.x, error, most);
+                    assert_true(version == 0 || near == found);
+                    found = near;
+                }
+                expect(most <= 0 || (found >= least && found <= greatest), "case %llu: %u, not %u to %u",
+                       (unsigned long long)i, found, least, greatest);
+                asked += most > 0;
+                one += most > 0 && found == 1;
+            }
+        }
+        free_scene(&scene);
+    }
+    print_message("# %u bounds, %u with one slack below\n", asked, one);
+    assert_true(asked > 20000 && one > 500);
+}
+
 static void a_body_with_many_axes_has_none(void **state) {
     (void)state;
     test_random random = test_random_case("many axes", 0);
@@ -188,6 +312,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_axes_leave_open_is_not_asked_again_at_once),
         cmocka_unit_test(the_least_slack_is_the_depth),
+        cmocka_unit_test(slacks_of_parallelepipeds_near_a_bound_are_counted),
         cmocka_unit_test(a_body_with_many_axes_has_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,6 +16,9 @@
 #define PIR_AXES_ALONG    6
 #define PIR_AXES_PADDED   8
 
+/* Halves of edges of a parallelepiped, padded. */
+#define PIR_AXES_HALVES 4
+
 /* By Euler's formula. */
 #define PIR_AXES_EDGES (PIR_AXES_VERTICES + PIR_AXES_FACETS - 2)
 
@@ -33,6 +36,11 @@ typedef struct pir_axes_lanes {
     double normal[3][PIR_AXES_PADDED]; /* of the first facet on each line */
     double offset[2][PIR_AXES_PADDED]; /* of that and of the one against it; infinite where there is none */
     double edge[3][PIR_AXES_PADDED], far[PIR_AXES_PADDED]; /* unit vectors along edges; 0, infinite where padded */
+
+    /* of a parallelepiped, whose vertices are sums of half an edge each way: else none of these is set */
+    bool has_halves;
+    double half[3][PIR_AXES_HALVES];     /* half an edge along each direction; 0 where padded */
+    double other[2][3][PIR_AXES_HALVES]; /* for each direction the halves along the two others */
 } pir_axes_lanes;
 
 /* A body with few facets and directions, in the frame of one exponent. Its polytope keeps it. */
@@ -54,6 +62,9 @@ typedef struct pir_axes_loops {
      */
     uint32_t (*slacks)(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 x, double error,
                        double low[PIR_AXES_SLACKS]);
+    /* How many slacks of two parallelepipeds are not certain to be above `most`, a number above 0. */
+    uint32_t (*near)(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 x, double error,
+                     double most);
     /* The least number, the first of its kind, and the least but for that one. `count` is of whole lanes. */
     uint32_t (*least)(const double *low, uint32_t count, double *ret_next);
 } pir_axes_loops;

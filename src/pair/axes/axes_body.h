@@ -112,6 +112,99 @@ PIR_LANES_TARGET static uint32_t slacks(const pir_axes_lanes *p, const pir_axes_
     return slacks_of(side_p, side_q, r, at, error, low);
 }
 
+/* --- parallelepipeds --- */
+
+/* The sum of two halves of edges along vectors, whichever way. */
+PIR_LANES_INLINE pir_lane two_along(pir_lane3 n, pir_lane3 a, pir_lane3 b) {
+    return pir_size(pir_lane3_dot(n, a)) + pir_size(pir_lane3_dot(n, b));
+}
+
+/* Half i of three, in all lanes. */
+PIR_LANES_INLINE pir_lane3 half_of(const double half[3][PIR_AXES_HALVES], uint32_t i) {
+    return (pir_lane3){pir_all(half[0][i]), pir_all(half[1][i]), pir_all(half[2][i])};
+}
+
+PIR_LANES_INLINE void turn_halves(const pir_mat3 *r, const double from[3][PIR_AXES_HALVES],
+                                  double to[3][PIR_AXES_HALVES]) {
+    for (uint32_t i = 0; i < PIR_AXES_HALVES; i += PIR_WIDTH) {
+        const pir_lane x = pir_load(&from[0][i]), y = pir_load(&from[1][i]), z = pir_load(&from[2][i]);
+        for (int k = 0; k < 3; k++)
+            pir_store(&to[k][i], r->m[k][0] * x + r->m[k][1] * y + r->m[k][2] * z);
+    }
+}
+
+PIR_LANES_INLINE pir_lane3 lanes_at(const double from[3][PIR_AXES_PADDED], uint32_t i) {
+    return (pir_lane3){pir_load(&from[0][i]), pir_load(&from[1][i]), pir_load(&from[2][i])};
+}
+
+PIR_LANES_INLINE pir_lane3 halves_at(const double from[3][PIR_AXES_HALVES], uint32_t i) {
+    return (pir_lane3){pir_load(&from[0][i]), pir_load(&from[1][i]), pir_load(&from[2][i])};
+}
+
+/* Less one in each lane where a slack, times a vector's length, is not above a bound, given the square of both. */
+PIR_LANES_INLINE pir_lane_bits not_above(pir_lane slack, pir_lane square) {
+    return ~((slack > (pir_lane){0}) & (slack * slack > square));
+}
+
+/* Counts, less than none, slacks along the lines of one body, where the other has these halves of edges. */
+PIR_LANES_INLINE pir_lane_bits near_lines(const pir_axes_lanes *of, const double normal[3][PIR_AXES_PADDED],
+                                          const double half[3][PIR_AXES_HALVES], pir_vec3 at, double least) {
+    pir_lane_bits near = {0};
+    for (uint32_t i = 0; i < PIR_AXES_HALVES; i += PIR_WIDTH) {
+        const pir_lane3 n = lanes_at(normal, i);
+        const pir_lane to = pir_lane3_dot(n, pir_lane3_all(at)), bound = pir_all(least);
+        const pir_lane h =
+            two_along(n, half_of(half, 0), half_of(half, 1)) + pir_size(pir_lane3_dot(n, half_of(half, 2)));
+        near += ~(pir_load(&of->offset[0][i]) + h - to > bound) + ~(pir_load(&of->offset[1][i]) + h + to > bound);
+    }
+    return near;
+}
+
+/* An edge of P, turned, and the halves along its other two. */
+struct axes_edge {
+    pir_lane3 e, half[2];
+};
+
+/* Likewise slacks across an edge of P and each of Q. */
+PIR_LANES_INLINE pir_lane_bits near_edges(const struct axes_edge *p, const pir_axes_lanes *q, pir_vec3 at, double error,
+                                          double most) {
+    pir_lane_bits near = {0};
+    for (uint32_t k = 0; k < PIR_AXES_HALVES; k += PIR_WIDTH) {
+        const pir_lane3 d = lanes_at(q->edge, k), e = p->e;
+        const pir_lane3 n = {d.y * e.z - d.z * e.y, d.z * e.x - d.x * e.z, d.x * e.y - d.y * e.x};
+        const pir_lane h = two_along(n, p->half[0], p->half[1]) +
+                           two_along(n, halves_at(q->other[0], k), halves_at(q->other[1], k)) + pir_load(&q->far[k]);
+        const pir_lane to = pir_lane3_dot(n, pir_lane3_all(at)), over = h - pir_all(error);
+        // what rounds is less than the last factor holds
+        const pir_lane square = pir_lane3_dot(n, n) * pir_all(most * most * (1 + 0x1p-45));
+        near += not_above(over - to, square) + not_above(over + to, square);
+    }
+    return near;
+}
+
+PIR_LANES_TARGET static uint32_t near(const pir_axes_lanes *p, const pir_axes_lanes *q, const pir_mat3 *r, pir_vec3 at,
+                                      double error, double most) {
+    double normal[3][PIR_AXES_PADDED], edge[3][PIR_AXES_PADDED], half[3][PIR_AXES_HALVES];
+    int64_t count = 0;
+    turn(r, p->normal, 3, normal);
+    turn(r, p->edge, 3, edge);
+    turn_halves(r, p->half, half);
+    typedef const double(*lanes)[PIR_AXES_PADDED];
+    typedef const double(*halves)[PIR_AXES_HALVES];
+    pir_lane_bits near = near_lines(p, (lanes)normal, q->half, at, most + 2 * error) +
+                         near_lines(q, q->normal, (halves)half, at, most + 2 * error);
+    for (uint32_t i = 0; i < 3; i++)
+        near +=
+            near_edges(&(struct axes_edge){{pir_all(edge[0][i]), pir_all(edge[1][i]), pir_all(edge[2][i])},
+                                           {half_of((halves)half, (i + 1) % 3), half_of((halves)half, (i + 2) % 3)}},
+                       q, at, 4 * error, most);
+    for (int k = 0; k < PIR_WIDTH; k++)
+        count -= near[k];
+    return (uint32_t)count;
+}
+
+/* --- the least --- */
+
 PIR_LANES_TARGET static uint32_t least(const double *low, uint32_t count, double *ret_next) {
     pir_lane most = pir_all(HUGE_VAL), first = most, second = most;
     pir_lane_bits at = {0}, here = {0};
@@ -137,4 +230,4 @@ PIR_LANES_TARGET static uint32_t least(const double *low, uint32_t count, double
     return (uint32_t)place;
 }
 
-const pir_axes_loops PIR_LANES_OF(pir_axes) = {PIR_LANES_NAME, slacks, least};
+const pir_axes_loops PIR_LANES_OF(pir_axes) = {PIR_LANES_NAME, slacks, near, least};
