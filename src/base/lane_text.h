@@ -175,6 +175,10 @@ PIR_LANES_INLINE pir_lane3 pir_lane3_sub(pir_lane3 a, pir_lane3 b) {
     return (pir_lane3){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+PIR_LANES_INLINE pir_lane3 pir_lane3_cross(pir_lane3 a, pir_lane3 b) {
+    return (pir_lane3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
 PIR_LANES_INLINE pir_lane pir_lane3_dot(pir_lane3 a, pir_lane3 b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }

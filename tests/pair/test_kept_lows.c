@@ -171,7 +171,22 @@ static void a_surface_that_stays_is_farther_than_the_facet_all_around(void **sta
     assert_true(stayed > CASES * STEPS / 4 && left > CASES);
 }
 
-/* All loops find the same triangles near. */
+/* The distances of triangles placed by themselves, in any order, are those of the whole surface placed. */
+static void check_lows(test_random *random, const struct scene *scene) {
+    uint8_t triangle[PIR_SURFACE_TRIANGLES + PIR_SURFACE_LANES] = {0};
+    double low[PIR_SURFACE_TRIANGLES + PIR_SURFACE_LANES];
+    const uint32_t count = 1 + test_random_below(random, PIR_SURFACE_TRIANGLES);
+    for (uint32_t i = 0; i < count; i++)
+        triangle[i] = (uint8_t)test_random_below(random, scene->surface.count);
+    for (unsigned version = 0; pir_processor_version(version); version++) {
+        const pir_surface_loops *loops = pir_processor_version(version)->surface;
+        loops->lows(&scene->surface, triangle, count, &scene->frame, &scene->room, low);
+        for (uint32_t i = 0; i < count; i++)
+            assert_true(low[i] == scene->room.plane.low[triangle[i]]);
+    }
+}
+
+/* All loops find the same triangles near, and the same distances. */
 static void every_version_finds_the_triangles_that_are_near(void **state) {
     (void)state;
     static struct scene scene;
@@ -180,6 +195,9 @@ static void every_version_finds_the_triangles_that_are_near(void **state) {
         scene.room.loops = pir_processor_version(0)->surface;
         make_scene(&random, &scene, &scene.room);
         const pir_surface_lows *lows = &scene.surface.lows;
+        move(&random, &scene);
+        place(&scene);
+        check_lows(&random, &scene);
         scene.surface.lows.rest = 0;
         pir_surface_keep(&scene.surface, &scene.frame, &scene.placement, &scene.room);
         for (uint32_t k = 0; k <= scene.surface.count; k++) {

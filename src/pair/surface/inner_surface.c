@@ -17,7 +17,7 @@
 bool pir_surface_place(const pir_surface *surface, const pir_frame *frame, pir_vec3 centre, double error, double reach,
                        pir_surface_room *room) {
     pir_surface_set_centre(centre, error, reach, room);
-    room->loops->corners(surface, surface->used, frame, room);
+    room->loops->corners(surface, frame, room);
     return room->loops->planes(room, surface->corner[0], surface->count, &room->plane) == 0;
 }
 

@@ -73,12 +73,22 @@ typedef struct pir_surface_room {
     uint8_t triangle[PIR_SURFACE_CORNERS][PIR_SURFACE_CORNERS]; /* the one that has the directed side (i, j), if any */
 } pir_surface_room;
 
+/* The most triangles that a loop takes at a time. */
+#define PIR_SURFACE_LANES 4
+
 /* The loops over a surface, in versions for processors that give the same bits. Sets have a bit for each triangle. */
 typedef struct pir_surface_loops {
     const char *name;
 
-    /* Places some corners: a bit for each. */
-    void (*corners)(const pir_surface *surface, uint32_t some, const pir_frame *frame, pir_surface_room *room);
+    /* Places the corners that are used. */
+    void (*corners)(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room);
+
+    /*
+     * Sets how far from the centre the planes of some triangles are at least. Whole lanes of them are taken: `triangle`
+     * and `ret_low` have room for that, and what is past the count are triangles too.
+     */
+    void (*lows)(const pir_surface *surface, const uint8_t *triangle, uint32_t count, const pir_frame *frame,
+                 const pir_surface_room *room, double *ret_low);
 
     /*
      * The planes of triangles, whose corners are in three rows of PIR_SURFACE_TRIANGLES. Returns those whose `low` is

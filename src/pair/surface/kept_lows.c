@@ -57,41 +57,25 @@ bool pir_surface_approach(const pir_surface *surface, const pir_surface_room *ro
     return true;
 }
 
-/* Places some triangles about x, as a fan in the room. False where there are too many, or one is not certain. */
-static bool place_some(const pir_surface *surface, const pir_surface_step *step, uint64_t triangles,
-                       pir_surface_room *room) {
-    const pir_placement *placement = step->placement;
-    pir_surface_fan *fan = &room->fan;
-    uint32_t corners = 0, count = 0;
-    for (; triangles && count < MOST_NEAR; triangles &= triangles - 1, count++) {
-        const uint32_t t = (uint32_t)__builtin_ctzll(triangles);
-        for (int k = 0; k < 3; k++) {
-            fan->corner[k][count] = surface->corner[k][t];
-            corners |= 1u << surface->corner[k][t];
-        }
-    }
-    fan->count = count;
-    if (triangles)
-        return false;
-    pir_surface_set_centre(placement->x, placement->error, placement->reach, room);
-    room->loops->corners(surface, corners, step->frame, room);
-    return room->loops->planes(room, fan->corner[0], count, &fan->plane) == 0;
-}
-
 bool pir_surface_stays(pir_surface *surface, const pir_surface_step *step, uint64_t near, pir_surface_room *room) {
+    const pir_placement *placement = step->placement;
     pir_surface_lows *lows = &surface->lows;
-    const double *low = room->fan.plane.low;
-    if (near != 0 && !place_some(surface, step, near, room)) {
+    uint8_t triangle[MOST_NEAR + PIR_SURFACE_LANES] = {0};
+    double low[MOST_NEAR + PIR_SURFACE_LANES];
+    uint32_t count = 0;
+    for (; near && count < MOST_NEAR; near &= near - 1)
+        triangle[count++] = (uint8_t)__builtin_ctzll(near);
+    if (near) {
         lows->rest = LOWS_REST;
         return false;
     }
-    uint32_t i = 0;
-    for (uint64_t rest = near; rest; rest &= rest - 1, i++)
+    pir_surface_set_centre(placement->x, placement->error, placement->reach, room);
+    room->loops->lows(surface, triangle, count, step->frame, room, low);
+    for (uint32_t i = 0; i < count; i++)
         if (!(low[i] > step->most))
             return false;
-    i = 0;
-    for (uint64_t rest = near; rest; rest &= rest - 1, i++)
-        lows->low[__builtin_ctzll(rest)] = lowered(low[i] + step->taken);
-    keep_placement(lows, step->frame, step->placement, step->taken);
+    for (uint32_t i = 0; i < count; i++)
+        lows->low[triangle[i]] = lowered(low[i] + step->taken);
+    keep_placement(lows, step->frame, placement, step->taken);
     return true;
 }

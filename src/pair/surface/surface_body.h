@@ -5,14 +5,13 @@
 #include "base/lane_text.h"
 #include "pair/surface/inner_surface.h"
 
-PIR_LANES_TARGET static void corners(const pir_surface *surface, uint32_t some, const pir_frame *frame,
-                                     pir_surface_room *room) {
+PIR_LANES_TARGET static void corners(const pir_surface *surface, const pir_frame *frame, pir_surface_room *room) {
     const pir_mat3 r = frame->r;
     const double columns[3][4] = {{r.m[0][0], r.m[1][0], r.m[2][0], 0},
                                   {r.m[0][1], r.m[1][1], r.m[2][1], 0},
                                   {r.m[0][2], r.m[1][2], r.m[2][2], 0}},
                  centre[4] = {room->centre.x, room->centre.y, room->centre.z, 0};
-    for (uint32_t rest = some; rest; rest &= rest - 1) {
+    for (uint32_t rest = surface->used; rest; rest &= rest - 1) {
         uint32_t i = (uint32_t)__builtin_ctz(rest);
         const pir_vec3 a = frame->p.vertex[surface->a[i]];
         // a body's vertices can be read one number past the last
@@ -33,6 +32,12 @@ PIR_LANES_INLINE pir_lane3 corner_of(const pir_surface_room *room, const uint8_t
     return pir_lane3_gather(at);
 }
 
+/* How far planes are from the centre at least, given their normals and a corner on each; sets their dets. */
+PIR_LANES_INLINE pir_lane low_of(pir_lane3 n, pir_lane3 corner, const pir_surface_room *room, pir_lane *ret_det) {
+    *ret_det = pir_lane3_dot(n, corner);
+    return (*ret_det - room->det_error) / (pir_roots(pir_lane3_dot(n, n)) + room->normal_error);
+}
+
 PIR_LANES_TARGET static uint64_t planes(const pir_surface_room *room, const uint8_t *corner, uint32_t count,
                                         pir_surface_planes *ret_planes) {
     uint64_t above = 0;
@@ -40,9 +45,8 @@ PIR_LANES_TARGET static uint64_t planes(const pir_surface_room *room, const uint
         pir_lane3 a = corner_of(room, &corner[t]);
         pir_lane3 e = pir_lane3_sub(corner_of(room, &corner[PIR_SURFACE_TRIANGLES + t]), a);
         pir_lane3 f = pir_lane3_sub(corner_of(room, &corner[2 * PIR_SURFACE_TRIANGLES + t]), a);
-        pir_lane3 n = {e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x};
-        pir_lane det = pir_lane3_dot(n, a),
-                 low = (det - room->det_error) / (pir_roots(pir_lane3_dot(n, n)) + room->normal_error);
+        pir_lane3 n = pir_lane3_cross(e, f);
+        pir_lane det, low = low_of(n, a, room, &det);
         pir_store(&ret_planes->nx[t], n.x);
         pir_store(&ret_planes->ny[t], n.y);
         pir_store(&ret_planes->nz[t], n.z);
@@ -52,6 +56,34 @@ PIR_LANES_TARGET static uint64_t planes(const pir_surface_room *room, const uint
     }
     // past the count there are corners of triangles that are gone
     return ~above & pir_surface_first(count);
+}
+
+/* The corners k of several triangles, less the centre. */
+PIR_LANES_INLINE pir_lane3 placed_corner(const pir_surface *surface, const uint8_t *triangle, int k,
+                                         const pir_frame *frame, pir_vec3 centre) {
+    const double(*r)[3] = frame->r.m, *p[PIR_WIDTH], *q[PIR_WIDTH];
+    for (int i = 0; i < PIR_WIDTH; i++) {
+        const uint32_t c = surface->corner[k][triangle[i]];
+        p[i] = &frame->p.vertex[surface->a[c]].x;
+        q[i] = &frame->q.vertex[surface->b[c]].x;
+    }
+    const pir_lane3 a = pir_lane3_gather(p), b = pir_lane3_gather(q);
+    return (pir_lane3){r[0][0] * a.x + r[0][1] * a.y + r[0][2] * a.z + b.x - centre.x,
+                       r[1][0] * a.x + r[1][1] * a.y + r[1][2] * a.z + b.y - centre.y,
+                       r[2][0] * a.x + r[2][1] * a.y + r[2][2] * a.z + b.z - centre.z};
+}
+
+PIR_LANES_TARGET static void lows(const pir_surface *surface, const uint8_t *triangle, uint32_t count,
+                                  const pir_frame *frame, const pir_surface_room *room, double *low) {
+    const pir_vec3 centre = room->centre;
+    for (uint32_t i = 0; i < count; i += PIR_WIDTH) {
+        const pir_lane3 a = placed_corner(surface, &triangle[i], 0, frame, centre);
+        const pir_lane3 e = pir_lane3_sub(placed_corner(surface, &triangle[i], 1, frame, centre), a);
+        const pir_lane3 f = pir_lane3_sub(placed_corner(surface, &triangle[i], 2, frame, centre), a);
+        pir_lane unused;
+        const pir_lane3 n = pir_lane3_cross(e, f);
+        pir_store(&low[i], low_of(n, a, room, &unused));
+    }
 }
 
 PIR_LANES_TARGET static uint64_t below(const pir_surface *surface, const pir_surface_room *room, double limit) {
@@ -137,5 +169,5 @@ PIR_LANES_TARGET static uint32_t either(const uint32_t vertex[PIR_SURFACE_CORNER
     return found;
 }
 
-const pir_surface_loops PIR_LANES_OF(pir_surface) = {PIR_LANES_NAME, corners, planes, below,  near,
-                                                     least,          seen,    about,  within, either};
+const pir_surface_loops PIR_LANES_OF(pir_surface) = {PIR_LANES_NAME, corners, lows,  planes, below, near,
+                                                     least,          seen,    about, within, either};
