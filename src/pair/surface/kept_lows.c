@@ -8,6 +8,9 @@
 /* Surfaces that are not kept after that: about round bodies as many are near at the next placements. */
 #define LOWS_REST 31
 
+/* Surfaces that are not kept after a way longer than a slack, as in fast motions. */
+#define SHORT_REST 4
+
 /* Below 1 by more than a float rounds. */
 #define FLOATED (1 - 0x1p-22)
 
@@ -45,14 +48,16 @@ static inline double way_of_corners(const pir_surface_lows *lows, const pir_fram
     return sqrt(pir_vec_dot(way, way)) + turn * frame->p.size + 0x1p-40 * placement->reach + 4 * placement->error;
 }
 
-bool pir_surface_approach(const pir_surface *surface, const pir_surface_room *room, pir_surface_step *step,
+bool pir_surface_approach(pir_surface *surface, const pir_surface_room *room, pir_surface_step *step,
                           uint64_t *ret_near) {
-    const pir_surface_lows *lows = &surface->lows;
+    pir_surface_lows *lows = &surface->lows;
     step->way = way_of_corners(lows, step->frame, step->placement);
     step->taken = lows->taken + step->way;
     // triangles of the facet are as far as that; about a long way floats tell little
-    if (!(step->least > step->way) || !(step->taken < step->placement->reach))
+    if (!(step->least > step->way) || !(step->taken < step->placement->reach)) {
+        lows->rest = SHORT_REST;
         return false;
+    }
     *ret_near = room->loops->near(surface, (float)((step->most + step->taken) / FLOATED));
     return true;
 }

@@ -30,7 +30,7 @@ typedef struct pir_surface_step {
 } pir_surface_step;
 
 /* Sets both ways, and the triangles that may be no farther from x than the facet. False where distances cannot tell. */
-bool pir_surface_approach(const pir_surface *surface, const pir_surface_room *room, pir_surface_step *step,
+bool pir_surface_approach(pir_surface *surface, const pir_surface_room *room, pir_surface_step *step,
                           uint64_t *ret_near);
 
 /*
