@@ -131,7 +131,7 @@ static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
 }
 
 /* The least distance of the corners of a polygon that is apart, above a plane; not sure where it is not above 0.
- * *ret_until is how far P may turn before that may be no more. */
+ * *ret_until is how far P may turn before that may be no more: not at all where a corner is a point where planes meet. */
 static double parted_distance(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_parted_polygon *parted,
                               uint32_t plane, double *ret_until) {
     pir_space *space = maker->space;
@@ -150,7 +150,7 @@ static double parted_distance(pir_facet_maker *maker, const pir_plane_facet *fac
         if (sums)
             pir_reach_add(&reach, space, facet, p);
     }
-    *ret_until = sums ? pir_distance_until(maker, plane, least, &reach) : maker->turn;
+    *ret_until = sums ? pir_distance_until(maker, plane, least, &reach) : -(double)INFINITY;
     return least;
 }
 
@@ -301,17 +301,39 @@ static bool cold_sides_stand(pir_facet_maker *maker, pir_plane_facet *facet) {
     return true;
 }
 
+/* Passes over hot sides, from one on, of which doubles say that they are as they were; the number of the next one. */
+static uint32_t pass_sure(pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t i) {
+    pir_space *space = maker->space;
+    uint32_t plane = PIR_SPACE_NONE;
+    double a = 0, b = 0, c = 0, d = 0, err = 0;
+    for (; i < facet->hot_count; i++) {
+        const pir_told_side *side = &facet->hot[i];
+        const pir_space_point *p = &space->point[side->point];
+        // sides of one plane are told in a row
+        if (side->plane != plane) {
+            if (!pir_space_sees_plane(space, side->plane))
+                break;
+            const pir_space_plane *f = &space->plane[plane = side->plane];
+            a = f->n[0], b = f->n[1], c = f->n[2], d = f->d, err = f->err + 0x1p-48;
+        }
+        if (!pir_space_sees_point(space, side->point) ||
+            !(side->sign * (a * p->x[0] + b * p->x[1] + c * p->x[2] - d) > err + p->err))
+            break;
+    }
+    return i;
+}
+
 static bool hot_sides_stand(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_space *space = maker->space;
-    for (uint32_t i = 0; i < facet->hot_count; i++) {
-        const pir_told_side side = facet->hot[i];
+    for (uint32_t i = pass_sure(maker, facet, 0); i < facet->hot_count; i = pass_sure(maker, facet, i)) {
+        const pir_told_side side = facet->hot[i++];
         if (!pir_space_sees_point(space, side.point) || !pir_space_sees_plane(space, side.plane))
             return false;
         if (pir_space_side(space, pir_half(side.plane, false), side.point) == side.sign)
             continue;
         if (!is_spared(maker, facet, side))
             return false;
-        i = UINT32_MAX;
+        i = 0;
     }
     maker->looked += facet->hot_count;
     return true;
@@ -330,11 +352,35 @@ static bool is_parted(pir_facet_maker *maker, const pir_plane_facet *facet, pir_
     return false;
 }
 
+/* Whether doubles say that a polygon is still above its plane. */
+static bool is_surely_parted(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_parted_polygon *parted) {
+    pir_space *space = maker->space;
+    if (!pir_space_sees_plane(space, parted->plane))
+        return false;
+    const pir_space_plane f = space->plane[parted->plane];
+    const uint32_t *corner = facet->corners.number + parted->first;
+    for (uint32_t i = 0; i < parted->count; i++) {
+        if (!pir_space_sees_point(space, corner[i]))
+            return false;
+        const pir_space_point *p = &space->point[corner[i]];
+        if (!(f.n[0] * p->x[0] + f.n[1] * p->x[1] + f.n[2] * p->x[2] - f.d > f.err + p->err + 0x1p-47))
+            return false;
+    }
+    return true;
+}
+
 static bool parted_stand(pir_facet_maker *maker, pir_plane_facet *facet) {
     for (uint32_t i = 0; i < facet->parted_count; i++) {
         pir_parted_polygon *parted = &facet->parted[i];
-        if ((parted->until <= maker->turn || pir_plane_is_dropped(maker->pairs, parted->plane)) &&
-            !is_parted(maker, facet, parted))
+        const bool dropped = maker->changed && pir_plane_is_dropped(maker->pairs, parted->plane);
+        if (!dropped && parted->until > maker->turn)
+            continue;
+        // where it is to be looked at in every frame, no more is asked
+        if (!dropped && parted->until < 0 && is_surely_parted(maker, facet, parted)) {
+            maker->looked++;
+            continue;
+        }
+        if (!is_parted(maker, facet, parted))
             return false;
     }
     return true;
@@ -391,8 +437,7 @@ static bool outlives_dropped(const pir_facet_maker *maker, pir_plane_facet *face
 
 bool pir_kept_facet_stands(pir_facet_maker *maker, pir_plane_facet *facet) {
     maker->spared = 0;
-    facet->stands = facet->stands && !facet->fleeting &&
-                    (maker->pairs->dropped_count == 0 || outlives_dropped(maker, facet)) &&
+    facet->stands = facet->stands && !facet->fleeting && (!maker->changed || outlives_dropped(maker, facet)) &&
                     cold_sides_stand(maker, facet) && hot_sides_stand(maker, facet) && parted_stand(maker, facet);
     return facet->stands;
 }

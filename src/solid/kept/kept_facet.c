@@ -440,25 +440,26 @@ static void sort_far(const pir_facet_maker *maker, pir_plane_facet *facet) {
 }
 
 /* Lists the far planes that may be wrong, and where pairs have changed those that are dropped. */
-static void list_due(pir_facet_maker *maker, const pir_plane_facet *facet, bool changed) {
+static void list_due(pir_facet_maker *maker, const pir_plane_facet *facet) {
     const uint32_t room = facet->far_count;
     maker->due_count = maker->gone_count = 0;
     if (!pir_space_grow(maker->space, (void **)&maker->due, &maker->due_room, room, sizeof *maker->due) ||
         !pir_space_grow(maker->space, (void **)&maker->gone, &maker->gone_room, room, sizeof *maker->gone))
         return;
     for (uint32_t i = 0; i < facet->far_soon; i++)
-        if (facet->far_until[i] <= maker->turn || (changed && pir_plane_is_dropped(maker->pairs, facet->far[i].plane)))
+        if (facet->far_until[i] <= maker->turn ||
+            (maker->changed && pir_plane_is_dropped(maker->pairs, facet->far[i].plane)))
             maker->due[maker->due_count++] = i;
-    for (uint32_t i = facet->far_soon; i < facet->far_count && changed; i++)
+    for (uint32_t i = facet->far_soon; i < facet->far_count && maker->changed; i++)
         if (pir_plane_is_dropped(maker->pairs, facet->far[i].plane))
             maker->due[maker->due_count++] = i;
 }
 
 /* Looks at the far planes that may be wrong, and does without those that are, and the dropped ones. */
-static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet, bool changed) {
+static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet) {
     if (maker->turn >= facet->horizon)
         sort_far(maker, facet);
-    list_due(maker, facet, changed);
+    list_due(maker, facet);
     // from the last one on: what takes the place of one that goes has been looked at
     for (uint32_t k = maker->due_count; k-- > 0 && maker->space->status == PIR_OK;) {
         const uint32_t i = maker->due[k];
@@ -487,10 +488,10 @@ static void follow_gaps(pir_facet_maker *maker, pir_plane_facet *facet) {
 }
 
 void pir_kept_facet_follow(pir_facet_maker *maker, pir_plane_facet *facet) {
-    const bool changed = take_changes(maker, facet);
-    if (changed)
+    maker->changed = take_changes(maker, facet);
+    if (maker->changed)
         drop_cuts(maker, facet);
-    follow_planes(maker, facet, changed);
+    follow_planes(maker, facet);
     if (maker->turn >= facet->near_until)
         follow_gaps(maker, facet);
 }

@@ -143,7 +143,8 @@ typedef struct pir_facet_maker {
     uint32_t *due, due_count, due_room; /* of the facet at hand: far planes that are to be looked at */
     pir_far_plane *gone;                /* of these, those that are no longer so */
     uint32_t gone_count, gone_room;
-    uint32_t spared;       /* of the facet at hand: planes taken as new ones, in this frame */
+    bool changed;          /* of the facet at hand: whether pairs near it have got or lost planes, in this frame */
+    uint32_t spared;       /* likewise: planes taken as new ones, in this frame */
     uint64_t made, looked; /* facets clipped, sides looked at, in this frame */
 } pir_facet_maker;
 

@@ -185,10 +185,11 @@ static void turn_doubles(pir_space_rest *rest) {
     const bool plain = rest->scale[0] == 1 && rest->scale[1] == 1;
     const int lower = plain ? 0 : top;
     space->shift = rest->shift + lower;
+    const double by[2] = {ldexp(rest->scale[0], -lower), ldexp(rest->scale[1], -lower)};
     for (uint32_t i = 0; i < rest->points.count; i++) {
         const pir_rest_item *item = &rest->points.item[i];
         pir_space_point *p = &space->point[item->of];
-        apply(p->x, item->body == 0 ? &rest->rotation->r : NULL, item->x, ldexp(rest->scale[item->body], -lower));
+        apply(p->x, item->body == 0 ? &rest->rotation->r : NULL, item->x, by[item->body]);
         p->err = 0x1p-46;
         p->exact = PIR_SPACE_NONE;
     }

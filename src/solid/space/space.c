@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/report.h"
 #include "solid/space/exact.h"
@@ -184,8 +185,8 @@ void pir_space_drop_exact(pir_space *space) {
     free_numbers(space);
     pir_intern_clear(&space->known_point);
     pir_intern_clear(&space->known_plane);
-    for (uint32_t k = 0; k < space->side_room; k++)
-        space->side[k] = (struct pir_known_side){0};
+    if (space->side_count > 0)
+        memset(space->side, 0, space->side_room * sizeof *space->side);
     space->side_count = 0;
     pir_space_numbers(space, 4);
 }
