@@ -47,6 +47,7 @@ static void clear(pir_facet_maker *maker, pir_plane_facet *facet) {
     facet->near_count = facet->far_count = facet->far_soon = facet->cut_count = 0;
     facet->near_until = (double)INFINITY;
     facet->horizon = 0;
+    facet->box_frame = 0;
     facet->based = false;
 }
 
@@ -70,6 +71,8 @@ void pir_kept_facet_finish(pir_facet_maker *maker, pir_plane_facet *facet) {
     pir_space_shrink(space, facet->made.number, facet->made.room, sizeof(uint32_t));
     pir_space_shrink(space, facet->corners.number, facet->corners.room, sizeof(uint32_t));
     pir_space_shrink(space, facet->near, facet->near_room, sizeof *facet->near);
+    pir_space_shrink(space, facet->near_pair, facet->near_pair_room, sizeof *facet->near_pair);
+    pir_space_shrink(space, facet->gap_until, facet->gap_until_room, sizeof *facet->gap_until);
     pir_space_shrink(space, facet->far, facet->far_room, sizeof *facet->far);
     pir_space_shrink(space, facet->far_until, facet->far_until_room, sizeof *facet->far_until);
     pir_space_shrink(space, facet->cold_until, facet->cold_until_room, sizeof *facet->cold_until);
@@ -168,11 +171,14 @@ static void renew_candidates(pir_facet_maker *maker, const pir_plane_facet *face
 }
 
 pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet) {
-    pir_space_box box = PIR_SPACE_BOX_EMPTY;
+    if (facet->box_frame == maker->space->frame)
+        return facet->box;
+    facet->box = PIR_SPACE_BOX_EMPTY;
+    facet->box_frame = maker->space->frame;
     renew_candidates(maker, facet);
     for (uint32_t i = 0; i < facet->candidates.corner_count; i++)
-        pir_space_box_add(&box, &maker->space->point[facet->candidates.point[i]]);
-    return box;
+        pir_space_box_add(&facet->box, &maker->space->point[facet->candidates.point[i]]);
+    return facet->box;
 }
 
 /* The least distance of the candidates' corners from a plane of a pair, on one side of it, of those that are not in it
@@ -261,8 +267,8 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
     const double gap = gap_of(&own, &box) * (1 - 0x1p-40) / least - PIR_TURN_SLACK;
     if (gap >= maker->step && gap > 0) {
         near->cover = PIR_COVER_GAP;
-        near->until = maker->turn + gap;
-        facet->near_until = fmin(facet->near_until, near->until);
+        facet->gap_until[at] = maker->turn + gap;
+        facet->near_until = fmin(facet->near_until, facet->gap_until[at]);
         return true;
     }
     renew_pair(maker, near->pair);
@@ -272,14 +278,16 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
         near->plane = sum->plane[k];
         distance = distance_of_all(maker, facet, near->plane, 1, &until);
     }
+    facet->gap_until[at] = (double)INFINITY;
     if (distance <= 0 && gap <= 0)
         return false;
     near->cover = distance > 0 ? PIR_COVER_APART : PIR_COVER_GAP;
-    near->until = maker->turn + gap;
-    if (distance > 0)
+    if (distance > 0) {
         add_far(maker, facet, (pir_far_plane){near->plane, at, 1}, until);
-    else
-        facet->near_until = fmin(facet->near_until, near->until);
+        return true;
+    }
+    facet->gap_until[at] = maker->turn + gap;
+    facet->near_until = fmin(facet->near_until, facet->gap_until[at]);
     return true;
 }
 
@@ -339,9 +347,14 @@ void pir_kept_facet_list_planes(pir_facet_maker *maker, pir_plane_facet *facet, 
 }
 
 static void add_near(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t pair) {
-    if (!pir_space_grow(maker->space, (void **)&facet->near, &facet->near_room, facet->near_count, sizeof *facet->near))
+    pir_space *space = maker->space;
+    const uint32_t at = facet->near_count;
+    if (!pir_space_grow(space, (void **)&facet->near, &facet->near_room, at, sizeof *facet->near) ||
+        !pir_space_grow(space, (void **)&facet->near_pair, &facet->near_pair_room, at, sizeof *facet->near_pair) ||
+        !pir_space_grow(space, (void **)&facet->gap_until, &facet->gap_until_room, at, sizeof *facet->gap_until))
         return;
-    const uint32_t at = facet->near_count++;
+    facet->near_count++;
+    facet->near_pair[at] = pair;
     facet->near[at] = (pir_near_pair){.pair = pair, .plane = PIR_SPACE_NONE};
     if (!prove_apart(maker, facet, at))
         join(maker, facet, at);
@@ -359,7 +372,7 @@ void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const u
     pir_kept_pair_sum *pair = maker->pairs->pair;
     const uint64_t look = ++maker->pairs->looks;
     for (uint32_t i = 0; i < facet->near_count; i++)
-        pair[facet->near[i].pair].met = look;
+        pair[facet->near_pair[i]].met = look;
     for (uint32_t i = 0; i < count && maker->space->status == PIR_OK; i++)
         if (pair[near[i]].met != look)
             add_near(maker, facet, near[i]);
@@ -371,9 +384,9 @@ void pir_kept_facet_meet(pir_facet_maker *maker, pir_plane_facet *facet, const u
 static bool take_changes(pir_facet_maker *maker, pir_plane_facet *facet) {
     bool changed = false;
     for (uint32_t i = 0; i < facet->near_count; i++) {
-        pir_near_pair *near = &facet->near[i];
-        if (!maker->pairs->has_changed[near->pair])
+        if (!maker->pairs->has_changed[facet->near_pair[i]])
             continue;
+        pir_near_pair *near = &facet->near[i];
         const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
         changed = true;
         renew_candidates(maker, facet);
@@ -476,15 +489,13 @@ static void follow_planes(pir_facet_maker *maker, pir_plane_facet *facet) {
 }
 
 static void follow_gaps(pir_facet_maker *maker, pir_plane_facet *facet) {
-    facet->near_until = (double)INFINITY;
+    double least = (double)INFINITY;
     for (uint32_t i = 0; i < facet->near_count && maker->space->status == PIR_OK; i++) {
-        if (facet->near[i].cover != PIR_COVER_GAP)
-            continue;
-        if (facet->near[i].until <= maker->turn && !prove_apart(maker, facet, i))
+        if (facet->gap_until[i] <= maker->turn && !prove_apart(maker, facet, i))
             join(maker, facet, i);
-        else if (facet->near[i].cover == PIR_COVER_GAP)
-            facet->near_until = fmin(facet->near_until, facet->near[i].until);
+        least = facet->gap_until[i] < least ? facet->gap_until[i] : least;
     }
+    facet->near_until = least;
 }
 
 void pir_kept_facet_follow(pir_facet_maker *maker, pir_plane_facet *facet) {

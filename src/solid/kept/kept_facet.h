@@ -55,7 +55,7 @@ typedef struct pir_near_pair {
     enum pir_pair_cover cover;
     bool listed;    /* whether its planes are among `far` and `cut` */
     uint32_t plane; /* below, or apart */
-    double until, depth;
+    double depth;
     uint32_t first_cut, cuts; /* scratch of clipping */
 } pir_near_pair;
 
@@ -105,13 +105,18 @@ typedef struct pir_plane_facet {
     pir_polygons candidates;
     pir_number_list points, planes; /* of the space, which only the candidates have */
     pir_near_pair *near;
+    uint32_t *near_pair; /* the pairs alone */
+    double *gap_until;   /* per near pair: up to which boxes keep it apart; infinite where that does not count */
     pir_far_plane *far;
     double *far_until; /* per far plane: how far P may turn */
     pir_cut_plane *cut;
-    uint32_t near_count, near_room, far_count, far_room, far_until_room, cut_count, cut_room;
+    uint32_t near_count, near_room, near_pair_room, gap_until_room, far_count, far_room, far_until_room, cut_count,
+        cut_room;
     uint32_t far_soon; /* the first of them, of which some may not hold past `horizon` */
     double horizon;    /* up to which all others hold */
     double near_until; /* the least of what is noted with near pairs */
+    pir_space_box box; /* of the candidates, in the frame that is noted */
+    uint32_t box_frame;
     /* what clipping told, and what it left */
     pir_number_list made; /* points of the space */
     pir_told_side *hot;
