@@ -43,28 +43,28 @@ static uint32_t list_clips(pir_facet_maker *maker, const pir_plane_facet *facet)
     return count;
 }
 
-static void push_half(pir_facet_maker *maker, uint32_t plane) {
-    pir_space_renew_plane(maker->space, plane);
-    if (pir_space_grow(maker->space, (void **)&maker->half, &maker->half_room, maker->half_count, sizeof *maker->half))
-        maker->half[maker->half_count++] = pir_half(plane, false);
+/* Sees to it that there is room for the half-spaces of all planes that cut. */
+static bool make_room(pir_facet_maker *maker, const pir_plane_facet *facet) {
+    return facet->cut_count == 0 || pir_space_grow(maker->space, (void **)&maker->half, &maker->half_room,
+                                                   facet->cut_count - 1, sizeof *maker->half);
 }
 
 /* Lists the planes that cut, as half-spaces, pair by pair. */
 static bool list_halves(pir_facet_maker *maker, pir_plane_facet *facet) {
-    maker->half_count = 0;
+    if (!make_room(maker, facet))
+        return false;
     for (uint32_t i = 0; i < facet->near_count; i++)
         facet->near[i].cuts = 0;
-    for (uint32_t i = 0; i < facet->cut_count; i++) {
+    for (uint32_t i = 0; i < facet->cut_count; i++)
         facet->near[facet->cut[i].near].cuts++;
-        push_half(maker, facet->cut[i].plane);
-    }
     for (uint32_t i = 0, first = 0; i < facet->near_count; i++) {
         facet->near[i].first_cut = first;
         first += facet->near[i].cuts;
         facet->near[i].cuts = 0;
     }
-    for (uint32_t i = 0; i < facet->cut_count && maker->space->status == PIR_OK; i++) {
+    for (uint32_t i = 0; i < facet->cut_count; i++) {
         pir_near_pair *near = &facet->near[facet->cut[i].near];
+        pir_space_renew_plane(maker->space, facet->cut[i].plane);
         maker->half[near->first_cut + near->cuts++] = pir_half(facet->cut[i].plane, false);
     }
     return maker->space->status == PIR_OK;
@@ -74,10 +74,14 @@ static bool list_halves(pir_facet_maker *maker, pir_plane_facet *facet) {
 static void list_late(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t at) {
     const uint32_t before = facet->cut_count;
     pir_kept_facet_list_planes(maker, facet, at);
-    facet->near[at].first_cut = maker->half_count;
-    for (uint32_t i = before; i < facet->cut_count; i++)
-        push_half(maker, facet->cut[i].plane);
+    if (!make_room(maker, facet))
+        return;
+    facet->near[at].first_cut = before;
     facet->near[at].cuts = facet->cut_count - before;
+    for (uint32_t i = before; i < facet->cut_count; i++) {
+        pir_space_renew_plane(maker->space, facet->cut[i].plane);
+        maker->half[i] = pir_half(facet->cut[i].plane, false);
+    }
 }
 
 static void clip_candidate(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t polygon, uint32_t clips) {

@@ -173,11 +173,17 @@ static void renew_candidates(pir_facet_maker *maker, const pir_plane_facet *face
 pir_space_box pir_kept_facet_box(pir_facet_maker *maker, pir_plane_facet *facet) {
     if (facet->box_frame == maker->space->frame)
         return facet->box;
-    facet->box = PIR_SPACE_BOX_EMPTY;
+    const pir_space_point *point = maker->space->point;
+    const uint32_t swapped = facet->key[0].kind == PIR_FACET_OF_Q;
+    facet->box = facet->part[0] = facet->part[1] = PIR_SPACE_BOX_EMPTY;
     facet->box_frame = maker->space->frame;
     renew_candidates(maker, facet);
-    for (uint32_t i = 0; i < facet->candidates.corner_count; i++)
-        pir_space_box_add(&facet->box, &maker->space->point[facet->candidates.point[i]]);
+    for (uint32_t i = 0; i < facet->candidates.corner_count; i++) {
+        const pir_space_point *corner = &point[facet->candidates.point[i]];
+        pir_space_box_add(&facet->box, corner);
+        for (uint32_t k = 0; k < 2; k++)
+            pir_space_box_add(&facet->part[k], &point[corner->of[k ^ swapped]]);
+    }
     return facet->box;
 }
 
@@ -219,6 +225,24 @@ static double gap_of(const pir_space_box *a, const pir_space_box *b) {
         gap = below > gap ? below : gap;
     }
     return gap;
+}
+
+/* How far points of two boxes are from each other at most. */
+static double span_of(const pir_space_box *a, const pir_space_box *b) {
+    double square = 0;
+    for (int k = 0; k < 3; k++) {
+        const double above = a->high[k] - b->low[k], below = b->high[k] - a->low[k];
+        square += above > below ? above * above : below * below;
+    }
+    return sqrt(square) * (1 + 0x1p-40);
+}
+
+/* How much the candidates and the sum of a pair may approach each other, times the angle; their boxes are there. */
+static double approach_of(const pir_facet_maker *maker, const pir_plane_facet *facet, uint32_t pair) {
+    const pir_convexes *convexes = maker->pairs->table->convexes;
+    const double of_p = span_of(&facet->part[0], &convexes[0].convex[pair / convexes[1].count].box);
+    const double of_q = span_of(&facet->part[1], &convexes[1].convex[pair % convexes[1].count].box);
+    return (of_p < of_q ? of_p : of_q) + 0x1p-40;
 }
 
 /* The plane of a pair's sum that the candidates' middle is farthest above. */
@@ -263,8 +287,8 @@ static bool prove_apart(pir_facet_maker *maker, pir_plane_facet *facet, uint32_t
     pir_near_pair *near = &facet->near[at];
     const pir_kept_pair_sum *sum = &maker->pairs->pair[near->pair];
     const pir_space_box box = pir_kept_pair_box(maker->pairs, near->pair), own = pir_kept_facet_box(maker, facet);
-    const double least = fmin(maker->diameter[0], maker->diameter[1]);
-    const double gap = gap_of(&own, &box) * (1 - 0x1p-40) / least - PIR_TURN_SLACK;
+    const double leeway = gap_of(&own, &box) * (1 - 0x1p-40) / approach_of(maker, facet, near->pair);
+    const double gap = fmin(leeway, PIR_TURN_MOST) - PIR_TURN_SLACK;
     if (gap >= maker->step && gap > 0) {
         near->cover = PIR_COVER_GAP;
         facet->gap_until[at] = maker->turn + gap;

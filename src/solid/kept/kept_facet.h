@@ -11,8 +11,8 @@
  * through y with a normal of P, n·(x − y) changes by no more than |q − q'| times it: in P's frame only Q
  * moves. Likewise with a normal of Q. Where the normal is e × g, of unit edges of both, |e × g| times the
  * distance is det(e, g, p − p') + det(e, g, q − q'), which change by no more than |p − p'| and |q − q'|
- * times it. And two convex sets, a candidate and a pair's sum, part or approach by no more than the lesser of both
- * diameters times the angle.
+ * times it. And two convex sets, a candidate and a pair's sum, part or approach by no more than the angle times the
+ * lesser of two: how far the vertices of P that the two are of are from each other at most, and those of Q.
  *
  * Invariants of a facet that stands, at the rotation at hand:
  * - Each side that its record has is as it was told, or may be wrong only if P has turned past what is noted there.
@@ -115,7 +115,8 @@ typedef struct pir_plane_facet {
     uint32_t far_soon; /* the first of them, of which some may not hold past `horizon` */
     double horizon;    /* up to which all others hold */
     double near_until; /* the least of what is noted with near pairs */
-    pir_space_box box; /* of the candidates, in the frame that is noted */
+    /* of the candidates, in the frame that is noted, and of the vertices of each body that they are of */
+    pir_space_box box, part[2];
     uint32_t box_frame;
     /* what clipping told, and what it left */
     pir_number_list made; /* points of the space */
@@ -144,7 +145,7 @@ typedef struct pir_facet_maker {
     pir_side_record record;
     pir_polygons polygons;
     pir_fragments fragments, kept;
-    uint32_t *half, half_count, half_room, *order, *work, order_room, work_room;
+    uint32_t *half, half_room, *order, *work, order_room, work_room;
     uint32_t *due, due_count, due_room; /* of the facet at hand: far planes that are to be looked at */
     pir_far_plane *gone;                /* of these, those that are no longer so */
     uint32_t gone_count, gone_room;
