@@ -135,7 +135,7 @@ static void keep_side(pir_facet_maker *maker, pir_plane_facet *facet, pir_told_s
 }
 
 /* The least distance of the corners of a polygon that is apart, above a plane; not sure where it is not above 0.
- * *ret_until is how far P may turn before that may be no more: not at all where a corner is a point where planes meet. */
+ * *ret_until is how far P may turn before that may be no more: not at all where a corner is where planes meet. */
 static double parted_distance(pir_facet_maker *maker, const pir_plane_facet *facet, const pir_parted_polygon *parted,
                               uint32_t plane, double *ret_until) {
     pir_space *space = maker->space;

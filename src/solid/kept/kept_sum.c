@@ -13,8 +13,8 @@
 #define SKIN_STEPS 16
 #define SKIN_MOST  .05
 
-/* All candidates are listed anew where more than so many may have changed. */
-#define TOUCHED_MOST 256
+/* All candidates are listed anew where more than so many may have changed, each counted as often as it is found. */
+#define TOUCHED_MOST 4096
 
 /* --- the turn --- */
 
@@ -277,19 +277,11 @@ static void list_facets(pir_kept_sum *kept) {
 
 /* --- candidates that change --- */
 
-/* Puts a key among those that are to be looked at again, in order, once. */
+/* Puts a key among those that are to be looked at again. */
 static void touch(pir_kept_sum *kept, pir_candidate_key key) {
-    if (!pir_space_grow(kept->space, (void **)&kept->touched, &kept->touched_room, kept->touched_count,
-                        sizeof *kept->touched))
-        return;
-    uint32_t at = kept->touched_count;
-    while (at > 0 && key_before(key, kept->touched[at - 1]))
-        at--;
-    if (at > 0 && !key_before(kept->touched[at - 1], key))
-        return;
-    memmove(kept->touched + at + 1, kept->touched + at, (kept->touched_count - at) * sizeof *kept->touched);
-    kept->touched[at] = key;
-    kept->touched_count++;
+    if (pir_space_grow(kept->space, (void **)&kept->touched, &kept->touched_room, kept->touched_count,
+                       sizeof *kept->touched))
+        kept->touched[kept->touched_count++] = key;
 }
 
 /* Touches the candidates that rest on a sign, of an edge e of body k with a column of normals of the other: with the
@@ -348,12 +340,14 @@ static void amend_facets(pir_kept_sum *kept) {
         return;
     }
     uint32_t old = 0;
-    if (kept->touched_count == 0)
+    if (kept->touched_count == 0 || !sort(kept, kept->touched_count, listed_before, kept->touched))
         return;
     begin_list(kept);
     const pir_candidate_key *before = kept->key_before;
     for (uint32_t i = 0; i < kept->touched_count && kept->space->status == PIR_OK; i++) {
-        const pir_candidate_key key = kept->touched[i];
+        const pir_candidate_key key = kept->touched[kept->order[i]];
+        if (i > 0 && !key_before(kept->touched[kept->order[i - 1]], key))
+            continue;
         for (; old < kept->key_before_count && key_before(before[old], key); old++)
             push_key(kept, before[old]);
         old += old < kept->key_before_count && !key_before(key, before[old]);
