@@ -4,6 +4,8 @@
 
 #include <string.h>
 
+#include "base/vec.h"
+
 #define WORD_BITS 64
 
 /* How much a box is wider than the doubles of its points, relatively: they are within 2^-50. */
@@ -29,8 +31,8 @@ void pir_plan_box_add(const pir_plan_space *space, uint32_t point, double low[3]
     const double *x = space->point[point].at;
     for (int k = 0; k < 3; k++) {
         const double room = fabs(x[k]) * WIDER + PIR_PLAN_TINY + space->point[point].room;
-        low[k] = fmin(low[k], x[k] - room);
-        high[k] = fmax(high[k], x[k] + room);
+        low[k] = pir_lesser(low[k], x[k] - room);
+        high[k] = pir_greater(high[k], x[k] + room);
     }
 }
 
