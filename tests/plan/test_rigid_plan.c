@@ -253,7 +253,7 @@ static void test_tight(void **state) {
     release_gate(&g);
 }
 
-/* A window that each of the first boxes closes, but not all together: some take all their sums, some are divided. */
+/* A window that each of the first boxes closes, but not all together: some are asked for more, some are divided. */
 static void test_disagreement(void **state) {
     (void)state;
     pir_rigid_plan_info info[2];

@@ -186,13 +186,14 @@ static const double (*points_of(const pir_box_parts *parts, const pir_box_cell *
 }
 
 bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,
-                        const pir_box_cell *of_b) {
+                        const pir_box_cell *of_b, double ret_shared[3]) {
     return pir_plan_boxes_meet(of_a->low, of_a->high, of_b->low, of_b->high) &&
-           !pir_points_apart(points_of(a, of_a), of_a->points, points_of(b, of_b), of_b->points, a->room + b->room);
+           !pir_points_apart(points_of(a, of_a), of_a->points, points_of(b, of_b), of_b->points, a->room + b->room,
+                             ret_shared);
 }
 
 bool pir_box_cell_has(const pir_box_parts *parts, const pir_box_cell *cell, const double x[3]) {
     const double own[1][3] = {{x[0], x[1], x[2]}};
     return pir_plan_boxes_meet(x, x, cell->low, cell->high) &&
-           !pir_points_apart(own, 1, points_of(parts, cell), cell->points, parts->room);
+           !pir_points_apart(own, 1, points_of(parts, cell), cell->points, parts->room, NULL);
 }

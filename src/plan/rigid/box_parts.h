@@ -78,9 +78,9 @@ bool pir_box_parts_pack(const pir_box_parts *parts, pir_bytes *bytes);
 /* Makes parts of bytes; false where these are none, or when out of memory. To be finished also then. */
 bool pir_box_parts_unpack(const pir_bytes *bytes, pir_box_parts *ret_parts);
 
-/* Whether two cells may share a point: false is proven. */
+/* Whether two cells may share a point: false is proven. `shared` may be NULL; else it gets about such a point. */
 bool pir_box_cells_meet(const pir_box_parts *a, const pir_box_cell *of_a, const pir_box_parts *b,
-                        const pir_box_cell *of_b);
+                        const pir_box_cell *of_b, double ret_shared[3]);
 
 /* Whether a point may lie in a cell, likewise. */
 bool pir_box_cell_has(const pir_box_parts *parts, const pir_box_cell *cell, const double x[3]);

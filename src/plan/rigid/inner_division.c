@@ -13,13 +13,18 @@
 /* How many points about a deepest one are looked at. */
 #define NEARS 48
 
+/* How many points are added to sums at a time. */
+#define MOST_POINTS 24
+
 struct sum_choice {
     const pir_rigid_question *question;
-    bool is_thick; /* whether all sums are made */
     pir_inner_search *search;
     pir_plan_pieces *sums;
     pir_box_division *division;
-    bool *used; /* per pair */
+    pir_inner_list *list;
+    bool *used;          /* per pair */
+    pir_polytope **base; /* per sum: before points made it wider */
+    uint32_t *wide;      /* how many points did */
     uint32_t pairs, best;
     double depth, deepest[3];
     double size;       /* of the robot */
@@ -44,6 +49,24 @@ static void mean_of(const pir_box_division *division, uint32_t cell, double ret[
         for (uint32_t v = 0; v < own->points; v++)
             ret[k] += division->space.point[own->point[v]].at[k] / own->points;
     }
+}
+
+/* Whether a translation is in a sum. */
+static bool is_blocked(const struct sum_choice *c, const double x[3]) {
+    for (uint32_t i = 0; i < c->sums->count; i++) {
+        const pir_polytope *made = c->sums->at[i];
+        bool has = true;
+        for (uint32_t f = 0; f < pir_polytope_facet_count(made) && has; f++) {
+            uint32_t corner[PIR_INNER_CORNERS + PIR_INNER_MORE];
+            const pir_vec3 n = pir_polytope_normal(made, f);
+            pir_polytope_facet(made, f, corner);
+            const pir_vec3 v = pir_polytope_vertex(made, corner[0]);
+            has = n.x * (x[0] - v.x) + n.y * (x[1] - v.y) + n.z * (x[2] - v.z) <= 0;
+        }
+        if (has)
+            return true;
+    }
+    return false;
 }
 
 /* Looks at points between two for the pair that has one deepest. */
@@ -108,12 +131,51 @@ static pir_status look_at_way(struct sum_choice *c, const uint32_t cell[2]) {
     return PIR_OK;
 }
 
-/* Makes the sum of a pair. */
+/* --- sums --- */
+
+/* Grows an array of a list's, from malloc. */
+static pir_status grow_list(void **array, uint32_t need, size_t size) {
+    void *grown = realloc(*array, need * size);
+    *array = grown ? grown : *array;
+    return grown ? PIR_OK : PIR_ERR_MEMORY;
+}
+
+/* Makes the sum of a pair, which is listed. */
 static pir_status make_sum(struct sum_choice *c, uint32_t pair) {
     c->used[pair] = true;
-    const pir_status status = pir_inner_sum_make(c->search, pair, &c->sums->at[c->sums->count]);
-    if (c->sums->at[c->sums->count])
+    const uint32_t number = c->sums->count;
+    const pir_status status = pir_inner_sum_make(c->search, pair, &c->base[number]);
+    if (c->base[number]) {
+        c->sums->at[number] = pir_polytope_retain(c->base[number]);
         c->sums->body[c->sums->count++] = pair;
+    }
+    return status;
+}
+
+/* Adds a pair to the list, with its sum. */
+static pir_status add_pair(struct sum_choice *c, uint32_t pair) {
+    pir_inner_list *list = c->list;
+    const pir_status status = grow_list((void **)&list->pair, list->pairs + 1, sizeof *list->pair);
+    if (status != PIR_OK)
+        return status;
+    list->pair[list->pairs++] = pair;
+    return make_sum(c, pair);
+}
+
+/* Has a sum be as wide as the points of the list make it. */
+static pir_status widen(struct sum_choice *c, uint32_t number) {
+    pir_vec3 more[PIR_INNER_MORE];
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < c->list->points && count < PIR_INNER_MORE; i++)
+        if (c->list->point[i].pair == c->sums->body[number])
+            more[count++] = c->list->point[i].at;
+    pir_polytope *wider = NULL;
+    const pir_status status = count > 0 ? pir_inner_sum_widen(c->search, c->base[number], more, count, &wider) : PIR_OK;
+    if (wider) {
+        pir_polytope_release(c->sums->at[number]);
+        c->sums->at[number] = wider;
+    }
+    c->wide[number] = count;
     return status;
 }
 
@@ -142,59 +204,113 @@ static bool add_near(struct sum_choice *c) {
     return true;
 }
 
-/* Whether a translation is in a sum. */
-static bool is_blocked(const struct sum_choice *c, const double x[3]) {
-    for (uint32_t i = 0; i < c->sums->count; i++) {
-        const pir_polytope *made = c->sums->at[i];
-        bool has = true;
-        for (uint32_t f = 0; f < pir_polytope_facet_count(made) && has; f++) {
-            uint32_t corner[PIR_INNER_CORNERS];
-            const pir_vec3 n = pir_polytope_normal(made, f);
-            pir_polytope_facet(made, f, corner);
-            const pir_vec3 v = pir_polytope_vertex(made, corner[0]);
-            has = n.x * (x[0] - v.x) + n.y * (x[1] - v.y) + n.z * (x[2] - v.z) <= 0;
-        }
-        if (has)
-            return true;
-    }
-    return false;
-}
-
-/* Makes sums of pairs that have points near ways which no sum has yet, those of most points first. */
-static pir_status thicken(struct sum_choice *c) {
-    const uint32_t first = c->sums->count;
-    pir_plan_space *space = &c->division->space;
-    const size_t all = (size_t)c->nears * c->pairs;
-    bool *has = pir_plan_new(space, all, sizeof *has);
-    uint32_t *count = pir_plan_new(space, c->pairs, sizeof *count);
-    pir_status status = space->status;
-    for (uint32_t i = 0; i < c->nears && status == PIR_OK; i++)
-        for (uint32_t p = 0; p < c->pairs && !is_blocked(c, c->near[i]); p++) {
-            has[i * c->pairs + p] =
-                !c->used[p] && pir_inner_depth(c->search, p, c->near[i]) > 0 && pir_inner_has(c->search, p, c->near[i]);
-            count[p] += has[i * c->pairs + p];
+/* Adds pairs that have points which no sum has yet, those of most points first. `has` is per point and pair. */
+static pir_status add_most(struct sum_choice *c, const double (*x)[3], uint32_t count, bool *has, uint32_t *counts) {
+    const uint32_t pairs = c->pairs;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t p = 0, is_free = !is_blocked(c, x[i]); p < pairs && is_free; p++) {
+            has[i * pairs + p] =
+                !c->used[p] && pir_inner_depth(c->search, p, x[i]) > 0 && pir_inner_has(c->search, p, x[i]);
+            counts[p] += has[i * pairs + p];
         }
     while (status == PIR_OK) {
         uint32_t best = 0;
-        for (uint32_t p = 1; p < c->pairs; p++)
-            best = count[p] > count[best] ? p : best;
-        if (count[best] == 0)
+        for (uint32_t p = 1; p < pairs; p++)
+            best = counts[p] > counts[best] ? p : best;
+        if (counts[best] == 0)
             break;
-        status = make_sum(c, best);
-        for (uint32_t i = 0; i < c->nears; i++)
-            for (uint32_t p = 0; has[i * c->pairs + best] && p < c->pairs; p++) {
+        status = add_pair(c, best);
+        for (uint32_t i = 0; i < count; i++)
+            for (uint32_t p = 0; has[i * pairs + best] && p < pairs; p++) {
                 if (p == best)
                     continue;
-                count[p] -= has[i * c->pairs + p];
-                has[i * c->pairs + p] = false;
+                counts[p] -= has[i * pairs + p];
+                has[i * pairs + p] = false;
             }
-        count[best] = 0;
+        counts[best] = 0;
     }
+    return status;
+}
+
+static pir_status add_blocking(struct sum_choice *c, const double (*x)[3], uint32_t count) {
+    pir_plan_space *space = &c->division->space;
+    const size_t all = (size_t)count * c->pairs;
+    bool *has = pir_plan_new(space, all, sizeof *has);
+    uint32_t *counts = pir_plan_new(space, c->pairs, sizeof *counts);
+    const pir_status status = space->status == PIR_OK ? add_most(c, x, count, has, counts) : space->status;
     pir_plan_free(space, has, all, sizeof *has);
-    pir_plan_free(space, count, c->pairs, sizeof *count);
-    if (status == PIR_OK && c->sums->count > first)
+    pir_plan_free(space, counts, c->pairs, sizeof *counts);
+    return status;
+}
+
+/* Adds a point to the list, which makes a sum wider. */
+static pir_status add_point(struct sum_choice *c, uint32_t number, const double x[3]) {
+    pir_inner_list *list = c->list;
+    const uint32_t pair = c->sums->body[number];
+    const pir_status status = grow_list((void **)&list->point, list->points + 1, sizeof *list->point);
+    if (status != PIR_OK)
+        return status;
+    const pir_vec3 point = pir_inner_sum_point(c->search, pair, c->sums->at[number], x);
+    list->point[list->points++] = (pir_inner_point){point, pair};
+    return widen(c, number);
+}
+
+/* Widens sums by points that no sum has, as many as may be: each time by the one that is farthest from a sum whose pair
+ * has it. `has` is per point and sum. */
+static pir_status add_farthest(struct sum_choice *c, const double (*x)[3], uint32_t count, bool *has) {
+    const uint32_t sums = c->sums->count;
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t k = 0, is_free = !is_blocked(c, x[i]); k < sums && is_free; k++)
+            has[i * sums + k] = pir_inner_depth(c->search, c->sums->body[k], x[i]) > 0 &&
+                                pir_inner_has(c->search, c->sums->body[k], x[i]);
+    for (int n = 0; n < MOST_POINTS && status == PIR_OK; n++) {
+        uint32_t at = 0, best = sums;
+        double most = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double least = INFINITY;
+            uint32_t of = sums;
+            for (uint32_t k = 0; k < sums && least > 0; k++) {
+                const double far = has[i * sums + k] ? pir_inner_sum_far(c->sums->at[k], x[i]) : INFINITY;
+                of = far < least && c->wide[k] < PIR_INNER_MORE ? k : of;
+                least = fmin(least, far);
+            }
+            if (of < sums && least > most) {
+                most = least;
+                best = of;
+                at = i;
+            }
+        }
+        if (best == sums)
+            break;
+        status = add_point(c, best, x[at]);
+    }
+    return status;
+}
+
+static pir_status add_points(struct sum_choice *c, const double (*x)[3], uint32_t count) {
+    pir_plan_space *space = &c->division->space;
+    const size_t all = (size_t)count * c->sums->count;
+    bool *has = pir_plan_new(space, all, sizeof *has);
+    const pir_status status = space->status == PIR_OK ? add_farthest(c, x, count, has) : space->status;
+    pir_plan_free(space, has, all, sizeof *has);
+    return status;
+}
+
+/* Divides by the sums from one on. */
+static pir_status divide_by(struct sum_choice *c, uint32_t first) {
+    pir_status status = PIR_OK;
+    if (c->sums->count > first || c->division->tree.node_count == 0)
         status = pir_box_division_add(c->question, c->sums, first, c->division);
     return status == PIR_OK ? pir_box_division_join(false, c->division) : status;
+}
+
+/* Makes sums of pairs that have points near ways which no sum has yet. */
+static pir_status thicken(struct sum_choice *c) {
+    const uint32_t first = c->sums->count;
+    const pir_status status = add_blocking(c, (const double(*)[3])c->near, c->nears);
+    return status == PIR_OK ? divide_by(c, first) : status;
 }
 
 /* Makes the sums of all pairs. */
@@ -203,21 +319,14 @@ static pir_status add_all(struct sum_choice *c) {
     pir_status status = PIR_OK;
     for (uint32_t p = 0; p < c->pairs && status == PIR_OK; p++)
         if (!c->used[p])
-            status = make_sum(c, p);
-    if (status == PIR_OK && c->sums->count > first)
-        status = pir_box_division_add(c->question, c->sums, first, c->division);
-    return status == PIR_OK ? pir_box_division_join(false, c->division) : status;
+            status = add_pair(c, p);
+    return status == PIR_OK ? divide_by(c, first) : status;
 }
 
 static pir_status choose(struct sum_choice *c) {
-    pir_status status = pir_box_division_add(c->question, c->sums, 0, c->division);
-    if (c->is_thick && status == PIR_OK)
-        return add_all(c);
+    pir_status status = divide_by(c, 0);
     while (status == PIR_OK) {
         const uint32_t first = c->sums->count;
-        status = pir_box_division_join(false, c->division);
-        if (status != PIR_OK)
-            break;
         const uint32_t cell[2] = {cell_of(c, 0), cell_of(c, 1)};
         if (cell[0] == PIR_PLAN_NONE || cell[1] == PIR_PLAN_NONE)
             return add_all(c);
@@ -226,36 +335,165 @@ static pir_status choose(struct sum_choice *c) {
         status = look_at_way(c, cell);
         if (status != PIR_OK || c->best == PIR_PLAN_NONE)
             break;
-        status = add_near(c) ? make_sum(c, c->best) : c->division->space.status;
-        if (status == PIR_OK && c->sums->count > first)
-            status = pir_box_division_add(c->question, c->sums, first, c->division);
+        status = add_near(c) ? add_pair(c, c->best) : c->division->space.status;
+        if (status == PIR_OK)
+            status = divide_by(c, first);
     }
     return status;
 }
 
-pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns, bool is_thick,
+/* Makes the sums of the list and more for translations that none has, and divides by all at once. */
+static pir_status take_list(struct sum_choice *c, const double (*x)[3], uint32_t count) {
+    pir_status status = PIR_OK;
+    for (uint32_t i = 0; i < c->list->pairs && status == PIR_OK; i++)
+        status = make_sum(c, c->list->pair[i]);
+    for (uint32_t i = 0; i < c->sums->count && status == PIR_OK && c->list->points > 0; i++)
+        status = widen(c, i);
+    if (status == PIR_OK && count > 0)
+        status = add_blocking(c, x, count);
+    if (status == PIR_OK && count > 0)
+        status = add_points(c, x, count);
+    return status == PIR_OK ? divide_by(c, 0) : status;
+}
+
+static pir_status open_choice(struct sum_choice *c, const pir_plan_turns *turns) {
+    pir_plan_space *space = &c->division->space;
+    c->pairs = c->question->robot->count * c->question->wide->count;
+    *c->sums =
+        (pir_plan_pieces){.at = calloc(c->pairs, sizeof *c->sums->at), .body = calloc(c->pairs, sizeof *c->sums->body)};
+    const pir_status status = pir_box_division_open(c->question, c->division);
+    if (status != PIR_OK || !c->sums->at || !c->sums->body)
+        return status != PIR_OK ? status : PIR_ERR_MEMORY;
+    c->used = pir_plan_new(space, c->pairs, sizeof *c->used);
+    c->base = pir_plan_new(space, c->pairs, sizeof *c->base);
+    c->wide = pir_plan_new(space, c->pairs, sizeof *c->wide);
+    return space->status == PIR_OK ? pir_inner_search_open(c->question, turns, space, &c->search) : space->status;
+}
+
+static void close_choice(struct sum_choice *c) {
+    pir_plan_space *space = &c->division->space;
+    for (uint32_t i = 0; i < c->sums->count; i++)
+        pir_polytope_release(c->base[i]);
+    pir_inner_search_close(c->search);
+    pir_plan_free(space, c->near, c->room, sizeof *c->near);
+    pir_plan_free(space, c->used, c->used ? c->pairs : 0, sizeof *c->used);
+    pir_plan_free(space, c->base, c->base ? c->pairs : 0, sizeof *c->base);
+    pir_plan_free(space, c->wide, c->wide ? c->pairs : 0, sizeof *c->wide);
+}
+
+pir_status pir_inner_division_make(const pir_rigid_question *question, const pir_plan_turns *turns,
+                                   const double (*x)[3], uint32_t count, pir_inner_list *list,
                                    pir_plan_pieces *ret_sums, pir_box_division *ret_division) {
-    pir_plan_space *space = &ret_division->space;
-    const uint32_t pairs = question->robot->count * question->wide->count;
     struct sum_choice c = {.question = question,
-                           .is_thick = is_thick,
                            .sums = ret_sums,
                            .division = ret_division,
-                           .pairs = pairs,
+                           .list = list,
                            .size = size_of(question->robot)};
-    *ret_sums =
-        (pir_plan_pieces){.at = calloc(pairs, sizeof *ret_sums->at), .body = calloc(pairs, sizeof *ret_sums->body)};
-    pir_status status = pir_box_division_open(question, ret_division);
-    if (status == PIR_OK && !(ret_sums->at && ret_sums->body))
-        status = PIR_ERR_MEMORY;
-    if (status == PIR_OK) {
-        c.used = pir_plan_new(space, pairs, sizeof *c.used);
-        status = pir_inner_search_open(question, turns, space, &c.search);
-    }
+    pir_status status = open_choice(&c, turns);
     if (status == PIR_OK)
-        status = choose(&c);
-    pir_inner_search_close(c.search);
-    pir_plan_free(space, c.near, c.room, sizeof *c.near);
-    pir_plan_free(space, c.used, c.used ? pairs : 0, sizeof *c.used);
+        status = list->rounds > 0 ? take_list(&c, x, count) : choose(&c);
+    close_choice(&c);
     return status;
+}
+
+pir_status pir_inner_division_again(const pir_rigid_question *question, const pir_plan_turns *turns,
+                                    const pir_inner_list *list, pir_plan_pieces *ret_sums,
+                                    pir_box_division *ret_division) {
+    pir_inner_list again = {.rounds = list->rounds};
+    if (list->rounds > 0)
+        again = *list;
+    const pir_status status = pir_inner_division_make(question, turns, NULL, 0, &again, ret_sums, ret_division);
+    if (list->rounds == 0)
+        pir_inner_list_finish(&again);
+    return status;
+}
+
+/* --- lists --- */
+
+bool pir_inner_list_copy(const pir_inner_list *list, pir_inner_list *ret_list) {
+    pir_inner_list copy = *list;
+    copy.pair = calloc((size_t)list->pairs + 1, sizeof *copy.pair);
+    copy.point = calloc((size_t)list->points + 1, sizeof *copy.point);
+    *ret_list = copy;
+    if (!copy.pair || !copy.point)
+        return false;
+    if (list->pairs > 0)
+        memcpy(copy.pair, list->pair, list->pairs * sizeof *copy.pair);
+    if (list->points > 0)
+        memcpy(copy.point, list->point, list->points * sizeof *copy.point);
+    return true;
+}
+
+void pir_inner_list_finish(pir_inner_list *list) {
+    free(list->pair);
+    free(list->point);
+    *list = (pir_inner_list){0};
+}
+
+size_t pir_inner_list_size(const pir_inner_list *list) {
+    return list->pairs * sizeof *list->pair + list->points * sizeof *list->point;
+}
+
+/* Lists begin with this, pairs follow, then points as packed ones. */
+struct packed_list {
+    uint32_t pairs, points, rounds, none;
+};
+
+struct packed_point {
+    double at[3];
+    uint64_t pair;
+};
+
+bool pir_inner_list_pack(const pir_inner_list *list, pir_bytes *bytes) {
+    const struct packed_list head = {list->pairs, list->points, list->rounds, 0};
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    const size_t of_pairs = list->pairs * sizeof *list->pair;
+    if (!pir_bytes_reserve(bytes, &a, sizeof head + of_pairs + list->points * sizeof(struct packed_point)))
+        return false;
+    memcpy(bytes->data + bytes->used, &head, sizeof head);
+    bytes->used += sizeof head;
+    if (of_pairs > 0)
+        memcpy(bytes->data + bytes->used, list->pair, of_pairs);
+    bytes->used += of_pairs;
+    for (uint32_t i = 0; i < list->points; i++) {
+        const pir_vec3 x = list->point[i].at;
+        const struct packed_point packed = {{x.x, x.y, x.z}, list->point[i].pair};
+        memcpy(bytes->data + bytes->used, &packed, sizeof packed);
+        bytes->used += sizeof packed;
+    }
+    return true;
+}
+
+bool pir_inner_list_unpack(pir_bytes *bytes, uint32_t pairs, pir_inner_list *list) {
+    struct packed_list head;
+    *list = (pir_inner_list){0};
+    if (bytes->used < sizeof head)
+        return false;
+    memcpy(&head, bytes->data, sizeof head);
+    const size_t of_pairs = head.pairs * sizeof *list->pair, of_points = head.points * sizeof(struct packed_point);
+    if (head.pairs > pairs || bytes->used - sizeof head < of_pairs + of_points)
+        return false;
+    list->pair = calloc((size_t)head.pairs + 1, sizeof *list->pair);
+    list->point = calloc((size_t)head.points + 1, sizeof *list->point);
+    if (!list->pair || !list->point)
+        return false;
+    const uint8_t *at = bytes->data + sizeof head;
+    if (of_pairs > 0)
+        memcpy(list->pair, at, of_pairs);
+    at += of_pairs;
+    bool good = true;
+    for (uint32_t i = 0; i < head.pairs; i++)
+        good = good && list->pair[i] < pairs;
+    for (uint32_t i = 0; i < head.points; i++, at += sizeof(struct packed_point)) {
+        struct packed_point packed;
+        memcpy(&packed, at, sizeof packed);
+        good = good && packed.pair < pairs;
+        list->point[i] = (pir_inner_point){{packed.at[0], packed.at[1], packed.at[2]}, (uint32_t)packed.pair};
+    }
+    list->pairs = head.pairs;
+    list->points = head.points;
+    list->rounds = head.rounds;
+    const size_t taken = (size_t)(at - bytes->data);
+    *bytes = (pir_bytes){bytes->data + taken, bytes->used - taken, bytes->used - taken};
+    return good;
 }

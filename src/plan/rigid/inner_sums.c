@@ -191,7 +191,7 @@ static bool open_search(struct sum_search *q) {
         for (uint32_t p = 0; p < r->points; p++) {
             double most = -INFINITY;
             for (int k = 0; k < count; k++)
-                most = fmax(most, pir_vec_dot(o->n[j], r->turned_point[p * (count + 1) + k]));
+                most = pir_greater(most, pir_vec_dot(o->n[j], r->turned_point[p * (count + 1) + k]));
             q->reach[j * r->points + p] = most;
         }
     memcpy(q->o, o->v, o->vertices * sizeof *q->o);
@@ -520,9 +520,13 @@ static pir_status thin_out(struct sum_search *q, pir_polytope **made) {
     }
 }
 
+static double grid_of(const struct sum_search *q) {
+    return ldexp(1, ilogb(q->robot->size + q->obstacle->size) - GRID_BITS);
+}
+
 static pir_status sum_within(pir_polytope *back, pir_polytope *obstacle, struct sum_search *q,
                              pir_polytope **ret_inner) {
-    const double size = q->robot->size + q->obstacle->size, grid = ldexp(1, ilogb(size) - GRID_BITS);
+    const double grid = grid_of(q);
     pir_sum *made = NULL;
     pir_mesh *mesh = NULL;
     pir_status status = pir_sum_create(back, obstacle, q->of->middle, NULL, &made);
@@ -627,4 +631,47 @@ pir_status pir_inner_sum_make(pir_inner_search *search, uint32_t pair, pir_polyt
     free_from(search, last);
     pir_polytope_release(back);
     return status;
+}
+
+pir_status pir_inner_sum_widen(pir_inner_search *search, const pir_polytope *sum, const pir_vec3 *more, uint32_t count,
+                               pir_polytope **ret_wider) {
+    const uint32_t old = pir_polytope_vertex_count(sum);
+    struct block *last = search->first;
+    pir_vec3 *x = take(search, (size_t)old + count, sizeof *x);
+    *ret_wider = NULL;
+    if (!x)
+        return search->space->status;
+    for (uint32_t i = 0; i < old; i++)
+        x[i] = pir_polytope_vertex(sum, i);
+    memcpy(x + old, more, count * sizeof *x);
+    const pir_status status = hull_of(x, old + count, ret_wider);
+    free_from(search, last);
+    return status;
+}
+
+/* How far a point is beyond the facet that it is farthest beyond. */
+static double beyond_facets(const pir_polytope *sum, pir_vec3 x, pir_vec3 *ret_normal) {
+    double most = -INFINITY;
+    for (uint32_t f = 0; f < pir_polytope_facet_count(sum); f++) {
+        uint32_t corner[PIR_INNER_CORNERS + PIR_INNER_MORE];
+        pir_polytope_facet(sum, f, corner);
+        const pir_vec3 n = pir_polytope_normal(sum, f);
+        const double far = pir_vec_dot(n, pir_vec_along(x, -1, pir_polytope_vertex(sum, corner[0])));
+        *ret_normal = far > most ? n : *ret_normal;
+        most = fmax(most, far);
+    }
+    return most;
+}
+
+double pir_inner_sum_far(const pir_polytope *sum, const double at[3]) {
+    pir_vec3 way = {0, 0, 0};
+    return beyond_facets(sum, (pir_vec3){at[0], at[1], at[2]}, &way);
+}
+
+pir_vec3 pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3]) {
+    struct sum_search *q = &search->pair[pair];
+    pir_vec3 way = {0, 0, 0}, x = {at[0], at[1], at[2]};
+    beyond_facets(sum, x, &way);
+    move_outwards(q, way, OUTWARDS * q->robot->size, &x);
+    return rounded(x, grid_of(q));
 }

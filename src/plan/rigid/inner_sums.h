@@ -18,7 +18,8 @@
  * An inner sum is the hull of points: corners of S at the middle rotation, each moved inwards until it is in S(q)
  * throughout, then points before its facets, as far outwards as they are in S(q). Points keep half-spaces by 2^-22 of
  * the size of both pieces, and are rounded to 2^-24 of it. Of them few are kept, those that are farthest out within the
- * bounds, since a division costs as facets do.
+ * bounds, since a division costs as facets do. Where a translation is blocked that the sum has not, it can be added: S
+ * is convex, so the hull with it is in S too.
  */
 #ifndef PIR_PLAN_RIGID_INNER_SUMS_H
 #define PIR_PLAN_RIGID_INNER_SUMS_H
@@ -26,8 +27,9 @@
 #include "plan/rigid/box_parts.h"
 #include "plan/turn_bodies.h"
 
-/* The most corners of an inner sum. */
+/* The most corners of an inner sum as it is made, and of more points that widen it. */
 #define PIR_INNER_CORNERS 12
+#define PIR_INNER_MORE    12
 
 /*
  * A search for all pairs of pieces over one box; a pair is the obstacle's number and that of the robot times how many
@@ -48,5 +50,15 @@ bool pir_inner_has(pir_inner_search *search, uint32_t pair, const double at[3]);
 
 /* The inner sum of a pair; NULL where there is none. */
 pir_status pir_inner_sum_make(pir_inner_search *search, uint32_t pair, pir_polytope **ret_sum);
+
+/* How far a translation is from a sum, about; 0 or less within. */
+double pir_inner_sum_far(const pir_polytope *sum, const double at[3]);
+
+/* A translation that a pair blocks and its sum has not, moved on outwards as far as the pair blocks it. */
+pir_vec3 pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3]);
+
+/* A sum made wider by such points; NULL where it has no inside. */
+pir_status pir_inner_sum_widen(pir_inner_search *search, const pir_polytope *sum, const pir_vec3 *more, uint32_t count,
+                               pir_polytope **ret_wider);
 
 #endif

@@ -17,8 +17,15 @@
 
 struct corral {
     double x[CORRAL][3], weight[CORRAL];
+    const double *a[CORRAL]; /* the points of the first set that x are from */
     int count;
     double near[3]; /* Σ weight·x */
+};
+
+struct point_sets {
+    const double (*a)[3], (*b)[3];
+    uint32_t count_a, count_b;
+    double room;
 };
 
 static double dot(const double a[3], const double b[3]) {
@@ -62,6 +69,7 @@ static void drop_empty(struct corral *c) {
         if (!(c->weight[i] > 0))
             continue;
         memmove(c->x[kept], c->x[i], sizeof c->x[i]);
+        c->a[kept] = c->a[i];
         c->weight[kept++] = c->weight[i];
     }
     c->count = kept;
@@ -113,27 +121,41 @@ static double largest(const double (*x)[3], uint32_t count, const double v[3]) {
     return most;
 }
 
-bool pir_points_apart(const double (*a)[3], uint32_t count_a, const double (*b)[3], uint32_t count_b, double room) {
-    struct corral c = {.count = 1, .weight = {1}};
+/* Adds the point of the difference of both sets that is lowest along the way from the origin; 1 where a plane across
+ * that way is between the sets, −1 where nothing more is found. */
+static int step_nearer(const struct point_sets *sets, struct corral *c) {
+    const double *v = c->near, back[3] = {-v[0], -v[1], -v[2]};
+    const double *low = sets->a[lowest(sets->a, sets->count_a, v)];
+    const double *high = sets->b[lowest(sets->b, sets->count_b, back)];
+    double added[3];
+    for (int k = 0; k < 3; k++)
+        added[k] = low[k] - high[k];
+    const double gap = dot(v, added);
+    if (gap > 0 && gap > (largest(sets->a, sets->count_a, v) + largest(sets->b, sets->count_b, v)) * MARGIN +
+                             sets->room * (fabs(v[0]) + fabs(v[1]) + fabs(v[2])))
+        return 1;
+    const double length = dot(v, v);
+    if (!(length > 0) || gap > length * (1 - 0x1p-30) || c->count == CORRAL)
+        return -1;
+    memcpy(c->x[c->count], added, sizeof added);
+    c->a[c->count] = low;
+    c->weight[c->count++] = 0;
+    return settle(c) ? 0 : -1;
+}
+
+bool pir_points_apart(const double (*a)[3], uint32_t count_a, const double (*b)[3], uint32_t count_b, double room,
+                      double ret_shared[3]) {
+    const struct point_sets sets = {a, b, count_a, count_b, room};
+    struct corral c = {.count = 1, .weight = {1}, .a = {a[0]}};
+    int found = 0;
     for (int k = 0; k < 3; k++)
         c.near[k] = c.x[0][k] = a[0][k] - b[0][k];
-    for (int step = 0; step < STEPS; step++) {
-        const double *v = c.near, back[3] = {-v[0], -v[1], -v[2]};
-        const double *low = a[lowest(a, count_a, v)], *high = b[lowest(b, count_b, back)];
-        double added[3];
-        for (int k = 0; k < 3; k++)
-            added[k] = low[k] - high[k];
-        const double gap = dot(v, added);
-        if (gap > 0 && gap > (largest(a, count_a, v) + largest(b, count_b, v)) * MARGIN +
-                                 room * (fabs(v[0]) + fabs(v[1]) + fabs(v[2])))
-            return true;
-        const double length = dot(v, v);
-        if (!(length > 0) || gap > length * (1 - 0x1p-30) || c.count == CORRAL)
-            return false;
-        memcpy(c.x[c.count], added, sizeof added);
-        c.weight[c.count++] = 0;
-        if (!settle(&c))
-            return false;
+    for (int step = 0; step < STEPS && found == 0; step++)
+        found = step_nearer(&sets, &c);
+    for (int k = 0; k < 3 && ret_shared; k++) {
+        ret_shared[k] = 0;
+        for (int i = 0; i < c.count; i++)
+            ret_shared[k] += c.weight[i] * c.a[i][k];
     }
-    return false;
+    return found > 0;
 }

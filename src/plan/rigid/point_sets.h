@@ -12,7 +12,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* True where they are, proven; false also where they are too near to tell. */
-bool pir_points_apart(const double (*a)[3], uint32_t count_a, const double (*b)[3], uint32_t count_b, double room);
+/*
+ * True where they are, proven; false also where they are too near to tell. `shared` may be NULL; else it gets about a
+ * point of both hulls where they are not apart.
+ */
+bool pir_points_apart(const double (*a)[3], uint32_t count_a, const double (*b)[3], uint32_t count_b, double room,
+                      double ret_shared[3]);
 
 #endif

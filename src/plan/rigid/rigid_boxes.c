@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "plan/rigid/inner_division.h"
+/* How often a box may be asked to block more, and of how many translations for each link. */
+#define MOST_ROUNDS 6
+#define MOST_SHARED 64
 
 bool pir_rigid_grow(pir_rigid_job *job, void **array, uint32_t *room, uint32_t need, size_t size) {
     if (job->status == PIR_OK && need > *room) {
@@ -76,6 +78,14 @@ static void free_links(pir_rigid_leaf *leaf) {
     leaf->touches = leaf->room = 0;
 }
 
+static void free_asks(pir_rigid_leaf *leaf) {
+    free(leaf->ask);
+    free(leaf->shared);
+    leaf->ask = NULL;
+    leaf->shared = NULL;
+    leaf->asks = leaf->ask_room = leaf->shareds = leaf->shared_room = 0;
+}
+
 /* Has the leaves from one on stand for another, which they are parts of. */
 static void replace(pir_rigid_job *job, uint32_t leaf, uint32_t first) {
     for (uint32_t t = 0; t < job->leaf[leaf].touches && job->status == PIR_OK; t++) {
@@ -89,8 +99,10 @@ static void replace(pir_rigid_job *job, uint32_t leaf, uint32_t first) {
             touch_both(job, first + i, first + k);
     pir_rigid_leaf *old = &job->leaf[leaf];
     free_links(old);
-    job->kept -= pir_box_parts_size(&old->inner);
+    job->kept -= pir_box_parts_size(&old->inner) + pir_inner_list_size(&old->list);
     pir_box_parts_finish(&old->inner);
+    pir_inner_list_finish(&old->list);
+    free_asks(old);
     old->is_divided = true;
     job->alive--;
 }
@@ -103,12 +115,17 @@ void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
     replace(job, leaf, first);
 }
 
-void pir_rigid_box_thicken(pir_rigid_job *job, uint32_t leaf) {
+void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf) {
     const uint32_t made = add_leaf(job, job->leaf[leaf].box, job->leaf[leaf].parent);
     if (made == PIR_PLAN_NONE)
         return;
     pir_rigid_leaf *own = &job->leaf[made], *old = &job->leaf[leaf];
-    own->is_thick = true;
+    if (!pir_inner_list_copy(&old->list, &own->list))
+        job->status = PIR_ERR_MEMORY;
+    own->list.rounds++;
+    own->shared = old->shared;
+    own->shareds = old->shareds;
+    old->shared = NULL;
     own->is_full = old->is_full;
     own->middle = old->middle;
     own->hub = old->hub;
@@ -121,22 +138,27 @@ void pir_rigid_box_thicken(pir_rigid_job *job, uint32_t leaf) {
     replace(job, leaf, made);
 }
 
+bool pir_rigid_box_may_refine(const pir_rigid_leaf *leaf) {
+    return !leaf->is_open && !leaf->is_spent && leaf->list.rounds < MOST_ROUNDS;
+}
+
 /* --- parts --- */
 
-/* Whether a part has the translations of both ends, about, or one of these is blocked. */
-static bool is_open(const pir_rigid_question *question, const pir_box_parts *parts) {
-    uint32_t part[2] = {PIR_PLAN_NONE, PIR_PLAN_NONE};
+/* Notes which parts have the translations of the ends, about: the box is open where one has both, or none has one. */
+static void note_ends(const pir_rigid_question *question, pir_rigid_leaf *leaf) {
+    const pir_box_parts *parts = &leaf->inner;
+    leaf->end[0] = leaf->end[1] = PIR_PLAN_NONE;
     for (uint32_t i = 0; i < parts->cells; i++)
         for (int s = 0; s < 2; s++)
             if (pir_box_cell_has(parts, &parts->cell[i], question->at[s]))
-                part[s] = parts->cell[i].part;
-    return part[0] == part[1] || part[0] == PIR_PLAN_NONE || part[1] == PIR_PLAN_NONE;
+                leaf->end[s] = parts->cell[i].part;
+    leaf->is_open = leaf->end[0] == leaf->end[1] || leaf->end[0] == PIR_PLAN_NONE || leaf->end[1] == PIR_PLAN_NONE;
 }
 
-/* The blocks of a box. */
-enum box_block { INNER_BLOCK, MIDDLE_BLOCK, THICK_BLOCK };
+/* The blocks of a box; those of rounds follow. */
+enum box_block { INNER_BLOCK, MIDDLE_BLOCK };
 
-static uint64_t block_number(pir_rotation_box box, enum box_block kind) {
+static uint64_t block_number(pir_rotation_box box, uint32_t kind) {
     uint64_t number = (uint64_t)kind << 2 | box.chart;
     number = number << 5 | box.level;
     for (int k = 0; k < 3; k++)
@@ -151,11 +173,30 @@ static pir_rigid_leaf *new_leaf(void *data, uint32_t index) {
 
 static uint64_t leaf_number(void *data, uint32_t index) {
     const pir_rigid_leaf *leaf = new_leaf(data, index);
-    return block_number(leaf->box, leaf->is_thick ? THICK_BLOCK : INNER_BLOCK);
+    const uint32_t rounds = leaf->list.rounds;
+    return block_number(leaf->box, rounds > 0 ? MIDDLE_BLOCK + rounds : INNER_BLOCK);
+}
+
+/* The block of a leaf begins with this; its list follows, and its parts. */
+struct packed_leaf {
+    uint64_t asked; /* a hash of what it was to block: another budget may have asked otherwise */
+    uint64_t is_spent;
+};
+
+static struct packed_leaf pack_head(const pir_rigid_leaf *leaf) {
+    const uint64_t hash = pir_hash_words(PIR_HASH_START, leaf->shared, leaf->shareds * sizeof *leaf->shared);
+    return (struct packed_leaf){hash, leaf->is_spent};
 }
 
 static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
-    return pir_box_parts_pack(&new_leaf(data, index)->inner, block);
+    const pir_rigid_leaf *leaf = new_leaf(data, index);
+    const struct packed_leaf head = pack_head(leaf);
+    const pir_allocator a = pir_allocator_or_default(NULL);
+    if (!pir_bytes_reserve(block, &a, sizeof head))
+        return false;
+    memcpy(block->data + block->used, &head, sizeof head);
+    block->used += sizeof head;
+    return pir_inner_list_pack(&leaf->list, block) && pir_box_parts_pack(&leaf->inner, block);
 }
 
 static bool tell_leaves(void *data, uint32_t done) {
@@ -164,14 +205,35 @@ static bool tell_leaves(void *data, uint32_t done) {
     return !q->progress || q->progress(q->context, job->alive - (job->leaves - job->first_new - done), 0);
 }
 
+/* Takes a list and parts of bytes; false where they are none, or of what was asked otherwise. */
+static bool unpack_leaf(const pir_rigid_job *job, const pir_bytes *block, pir_rigid_leaf *leaf) {
+    const uint32_t pairs = job->question->robot->count * job->question->wide->count;
+    struct packed_leaf head;
+    pir_inner_list list = {0};
+    if (block->used < sizeof head)
+        return false;
+    memcpy(&head, block->data, sizeof head);
+    const size_t rest = block->used - sizeof head;
+    pir_bytes bytes = {block->data + sizeof head, rest, rest};
+    const bool good = head.asked == pack_head(leaf).asked && pir_inner_list_unpack(&bytes, pairs, &list) &&
+                      list.rounds == leaf->list.rounds && pir_box_parts_unpack(&bytes, &leaf->inner);
+    pir_inner_list *old = good ? &leaf->list : &list;
+    pir_inner_list_finish(old);
+    if (good) {
+        leaf->list = list;
+        leaf->is_spent = head.is_spent != 0;
+    } else {
+        pir_box_parts_finish(&leaf->inner);
+    }
+    return good;
+}
+
 static bool take_leaf(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
     const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = new_leaf(data, index);
     leaf->status = status;
-    const bool good = status != PIR_OK || pir_box_parts_unpack(block, &leaf->inner);
-    if (!good)
-        pir_box_parts_finish(&leaf->inner);
-    leaf->is_open = is_open(job->question, &leaf->inner);
+    const bool good = status != PIR_OK || unpack_leaf(job, block, leaf);
+    note_ends(job->question, leaf);
     return good;
 }
 
@@ -179,12 +241,15 @@ static pir_status make_leaf(void *data, uint32_t index) {
     const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = new_leaf(data, index);
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
+    const uint32_t old = leaf->list.pairs + leaf->list.points;
     pir_plan_pieces sums;
     pir_box_division division;
-    leaf->status = pir_inner_division_make(job->question, &corners, leaf->is_thick, &sums, &division);
+    leaf->status = pir_inner_division_make(job->question, &corners, (const double(*)[3])leaf->shared, leaf->shareds,
+                                           &leaf->list, &sums, &division);
     if (leaf->status == PIR_OK)
         leaf->status = pir_box_parts_keep(&division, &leaf->inner);
-    leaf->is_open = leaf->status == PIR_OK && is_open(job->question, &leaf->inner);
+    note_ends(job->question, leaf);
+    leaf->is_spent = leaf->list.rounds > 0 && leaf->list.pairs + leaf->list.points == old;
     pir_box_division_finish(&division);
     pir_plan_pieces_over_free(&sums);
     return leaf->status;
@@ -243,7 +308,7 @@ static pir_status fill_leaf(void *data, uint32_t index) {
 static bool parts_meet(const pir_box_parts *a, uint32_t part_a, const pir_box_parts *b, uint32_t part_b) {
     for (uint32_t i = 0; i < a->cells; i++)
         for (uint32_t k = 0; k < b->cells && a->cell[i].part == part_a; k++)
-            if (b->cell[k].part == part_b && pir_box_cells_meet(a, &a->cell[i], b, &b->cell[k]))
+            if (b->cell[k].part == part_b && pir_box_cells_meet(a, &a->cell[i], b, &b->cell[k], NULL))
                 return true;
     return false;
 }
@@ -279,6 +344,38 @@ static void link_leaf(void *data, uint32_t index) {
     }
 }
 
+/* Adds translations that two parts share. */
+static void list_shared(pir_rigid_leaf *leaf, const pir_rigid_ask *ask, const pir_box_parts *other) {
+    const pir_box_parts *own = &leaf->inner;
+    const uint32_t most = leaf->shareds + MOST_SHARED;
+    for (uint32_t i = 0; i < own->cells; i++)
+        for (uint32_t k = 0; k < other->cells && own->cell[i].part == ask->part; k++) {
+            double x[3];
+            if (other->cell[k].part == ask->other_part && leaf->shareds < most &&
+                pir_box_cells_meet(own, &own->cell[i], other, &other->cell[k], x))
+                memcpy(leaf->shared[leaf->shareds++], x, sizeof x);
+        }
+}
+
+static void look_leaf(void *data, uint32_t index) {
+    pir_rigid_leaf *leaf = listed_leaf(data, index);
+    const pir_rigid_job *job = data;
+    for (uint32_t i = 0; i < leaf->asks; i++)
+        list_shared(leaf, &leaf->ask[i], &job->leaf[leaf->ask[i].other].inner);
+}
+
+void pir_rigid_boxes_ask(pir_rigid_job *job) {
+    const pir_tasks tasks = job->makers->tasks;
+    for (uint32_t i = 0; i < job->listed; i++) {
+        pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
+        if (!pir_rigid_grow(job, (void **)&leaf->shared, &leaf->shared_room, leaf->asks * MOST_SHARED,
+                            sizeof *leaf->shared))
+            return;
+    }
+    tasks.start(tasks.context, look_leaf, job, job->listed);
+    tasks.finish(tasks.context);
+}
+
 /* Counts what a division left. */
 static void count_parts(pir_rigid_job *job, const pir_box_parts *parts) {
     job->parts += parts->nodes;
@@ -294,7 +391,9 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
     job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
         job->status = job->leaf[i].status;
+        job->kept += pir_inner_list_size(&job->leaf[i].list);
         count_parts(job, &job->leaf[i].inner);
+        free_asks(&job->leaf[i]);
     }
     if (job->status != PIR_OK)
         return;
@@ -339,6 +438,8 @@ void pir_rigid_boxes_finish(pir_rigid_job *job) {
         free_links(&job->leaf[i]);
         pir_box_parts_finish(&job->leaf[i].inner);
         pir_box_parts_finish(&job->leaf[i].middle);
+        pir_inner_list_finish(&job->leaf[i].list);
+        free_asks(&job->leaf[i]);
         free(job->leaf[i].hub);
     }
     free(job->leaf);

@@ -16,8 +16,14 @@ void pir_rigid_boxes_begin(pir_rigid_job *job);
 /* Replaces a leaf by its halves. */
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
 
-/* Replaces a leaf by one of all sums, which takes its hubs. */
-void pir_rigid_box_thicken(pir_rigid_job *job, uint32_t leaf);
+/* Finds translations that the links share of which listed boxes are asked. */
+void pir_rigid_boxes_ask(pir_rigid_job *job);
+
+/* Replaces a leaf by one that is to block these, which takes its hubs. */
+void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf);
+
+/* Whether a box may block more without being divided. */
+bool pir_rigid_box_may_refine(const pir_rigid_leaf *leaf);
 
 /* Makes the inner parts of all leaves that are new, and the links between them and others. */
 void pir_rigid_boxes_make(pir_rigid_job *job);

@@ -18,9 +18,10 @@
  *
  * Else boxes are divided where that may decide. Free parts of boxes are nodes of a graph, of which hubs tell that some
  * can be reached from the start, others from the end. Nodes on shortest ways from the first to the second are doubted:
- * a path may lead through them, or they block too little. A box whose inner sums part the ends, but not all of which
- * are made, takes all first: that costs less than its eighths, and its neighbours then agree with it more often. Other
- * boxes are halved. Only new boxes are looked at.
+ * a path may lead through them, or they block too little. A box with a way of its own is halved. Where ways are left
+ * only from box to box, those on the shortest ones are asked to block translations that parts on both sides of a link
+ * share, and are made anew with more or wider sums. A link of which neither box can do that has the larger one halved.
+ * Only new boxes are looked at.
  *
  * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
  * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.
@@ -32,7 +33,7 @@
 #include <pirouette/workspace.h>
 
 #include "plan/blocks/block_work.h"
-#include "plan/rigid/box_parts.h"
+#include "plan/rigid/inner_division.h"
 #include "plan/rigid/rotation_box.h"
 
 /* Another leaf that a leaf touches; links join parts of both, and stand with the one of the greater number. */
@@ -41,6 +42,11 @@ typedef struct pir_rigid_touch {
     uint32_t (*link)[2]; /* own part, the other's */
     bool is_linked;
 } pir_rigid_touch;
+
+/* A link in doubt of which a box is to block the translations that both parts share. */
+typedef struct pir_rigid_ask {
+    uint32_t part, other, other_part;
+} pir_rigid_ask;
 
 /* A free place at a middle: any one of a connected part, if these are known. */
 typedef struct pir_rigid_hub {
@@ -52,14 +58,21 @@ typedef struct pir_rigid_hub {
 typedef struct pir_rigid_leaf {
     pir_rotation_box box;
     bool is_divided, is_full; /* whether the parts at the middle are known: the first hubs are these */
-    bool is_open, is_thick;   /* whether inner sums leave a way between the ends; whether all are made */
+    bool is_open, is_spent;   /* whether inner sums leave a way between the ends; whether no more help */
+    bool is_due;              /* whether it is to be divided */
+    uint32_t end[2];          /* the inner parts that have the ends' translations, or none */
     uint32_t parent;          /* PIR_PLAN_NONE of roots */
-    pir_box_parts inner;      /* for inner sums */
-    pir_box_parts middle;     /* at the middle, where it is full */
+    pir_inner_list list;
+    pir_box_parts inner;  /* for the inner sums of the list */
+    pir_box_parts middle; /* at the middle, where it is full */
     pir_rigid_hub *hub;
     uint32_t node; /* the first */
     pir_rigid_touch *touch;
     uint32_t touches, room, hubs, hub_room;
+    pir_rigid_ask *ask;
+    uint32_t asks, ask_room;
+    double (*shared)[3]; /* translations that it is to block */
+    uint32_t shareds, shared_room;
     pir_status status; /* of its making */
 } pir_rigid_leaf;
 

@@ -92,7 +92,8 @@ static uint32_t list_ends(const pir_rigid_job *job, int side, uint32_t *node, ui
 
 #define MOST_ENDS 1024
 
-/* How far nodes are from those that an end is in, or a hub that the end reaches. */
+/* How far nodes are from those that an end is in, or a hub that the end reaches, or that have the end's translation
+ * in a box that parts both ends: such nodes of either end are to be parted in any case. */
 static void measure(pir_rigid_job *job, struct doubt *d, int side) {
     uint32_t count = 0, end[MOST_ENDS];
     const uint32_t ends = list_ends(job, side, end, MOST_ENDS), root = pir_rigid_root(job->hub_root, (uint32_t)side);
@@ -101,6 +102,8 @@ static void measure(pir_rigid_job *job, struct doubt *d, int side) {
         add_source(d, side, end[i], &count);
     for (uint32_t i = 0; i < job->leaves; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[i];
+        if (!leaf->is_divided && !leaf->is_open)
+            add_source(d, side, leaf->node + leaf->end[side], &count);
         for (uint32_t h = 0; !leaf->is_divided && h < leaf->hubs; h++)
             if (leaf->hub[h].in != PIR_PLAN_NONE && pir_rigid_root(job->hub_root, leaf->hub[h].node) == root)
                 add_source(d, side, leaf->node + leaf->hub[h].in, &count);
@@ -115,23 +118,28 @@ static void measure(pir_rigid_job *job, struct doubt *d, int side) {
     }
 }
 
-/* Marks the boxes of nodes on shortest ways: what is between the ends' own nodes where there is anything. */
-static void mark(const pir_rigid_job *job, const struct doubt *d, bool *is_doubted) {
+/* How long shortest ways are; none is PIR_PLAN_NONE. */
+static uint32_t shortest(const pir_rigid_job *job, const struct doubt *d) {
     uint32_t least = PIR_PLAN_NONE;
     for (uint32_t n = 0; n < job->nodes; n++)
         if (d->far[0][n] != PIR_PLAN_NONE && d->far[1][n] != PIR_PLAN_NONE) {
             const uint32_t far = d->far[0][n] + d->far[1][n];
             least = far < least ? far : least;
         }
+    return least;
+}
+
+/* Marks boxes on shortest ways that have a way of their own: of nodes between those of the ends, where there are. */
+static void mark(const pir_rigid_job *job, const struct doubt *d, uint32_t least, bool *is_divided) {
     for (uint32_t n = 0; n < job->nodes; n++) {
         const uint32_t a = d->far[0][n], b = d->far[1][n];
         if (a != PIR_PLAN_NONE && b != PIR_PLAN_NONE && a + b == least && (least < 2 || (a > 0 && b > 0)))
-            is_doubted[d->leaf[n]] = true;
+            is_divided[d->leaf[n]] = least == 0 || job->leaf[d->leaf[n]].is_open;
     }
 }
 
 /* The boxes of an end that no hub reaches. */
-static void mark_ends(pir_rigid_job *job, bool *is_doubted) {
+static void mark_ends(pir_rigid_job *job, bool *is_divided) {
     bool is_reached[PIR_RIGID_ENDS] = {false, false};
     for (uint32_t i = 0; i < job->turns; i++)
         for (int s = 0; s < 2; s++)
@@ -141,46 +149,112 @@ static void mark_ends(pir_rigid_job *job, bool *is_doubted) {
         for (int s = 0; s < PIR_RIGID_ENDS; s++)
             if (!is_reached[s] && !job->leaf[i].is_divided &&
                 pir_rotation_box_has(job->leaf[i].box, job->question->rotation[s]))
-                is_doubted[i] = true;
+                is_divided[i] = true;
 }
 
-/* Lists the boxes that are doubted and can be divided. */
+/* Whether a link is on a shortest way. */
+static bool is_on_way(const struct doubt *d, uint32_t a, uint32_t b, uint32_t least) {
+    for (int s = 0; s < 2; s++)
+        if (d->far[s][a] != PIR_PLAN_NONE && d->far[1 - s][b] != PIR_PLAN_NONE &&
+            d->far[s][a] + 1 + d->far[1 - s][b] == least)
+            return true;
+    return false;
+}
+
+static bool ask(pir_rigid_job *job, uint32_t leaf, pir_rigid_ask what) {
+    pir_rigid_leaf *own = &job->leaf[leaf];
+    if (pir_rigid_grow(job, (void **)&own->ask, &own->ask_room, own->asks + 1, sizeof *own->ask))
+        own->ask[own->asks++] = what;
+    return job->status == PIR_OK;
+}
+
+/*
+ * Asks the boxes of a link to block what both parts share: one of them where neither was asked before, the one of more
+ * such links, which then blocks what many others leave; else both that may. Boxes that are to be divided are marked:
+ * of a link that neither may block, the larger one.
+ */
+static void ask_link(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t part[2], const uint32_t *links,
+                     bool *is_divided) {
+    const pir_rigid_leaf *of[2] = {&job->leaf[leaf[0]], &job->leaf[leaf[1]]};
+    bool may[2] = {pir_rigid_box_may_refine(of[0]), pir_rigid_box_may_refine(of[1])};
+    if (may[0] && may[1] && of[0]->list.rounds == 0 && of[1]->list.rounds == 0)
+        may[links[leaf[0]] < links[leaf[1]]] = false;
+    for (int s = 0; s < 2; s++) {
+        if (may[s])
+            ask(job, leaf[s], (pir_rigid_ask){part[s], leaf[1 - s], part[1 - s]});
+        if (!may[0] && !may[1] && of[s]->box.level <= of[1 - s]->box.level)
+            is_divided[leaf[s]] = true;
+    }
+}
+
+/* Calls for the links on shortest ways: counts those of each box, or asks. */
+static void each_doubted(pir_rigid_job *job, const struct doubt *d, uint32_t least, uint32_t *links, bool *is_divided) {
+    for (uint32_t i = 0; i < job->leaves; i++)
+        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+            for (uint32_t l = 0; l < touch->links; l++) {
+                const uint32_t leaf[2] = {i, touch->other}, part[2] = {touch->link[l][0], touch->link[l][1]};
+                if (!is_on_way(d, job->leaf[i].node + part[0], job->leaf[leaf[1]].node + part[1], least))
+                    continue;
+                links[leaf[0]] += !is_divided;
+                links[leaf[1]] += !is_divided;
+                if (is_divided)
+                    ask_link(job, leaf, part, links, is_divided);
+            }
+        }
+}
+
+/* Asks boxes to block links on shortest ways, and marks those that are to be divided instead. */
+static void ask_all(pir_rigid_job *job, const struct doubt *d, uint32_t least, bool *is_divided) {
+    uint32_t *links = calloc((size_t)job->leaves + 1, sizeof *links);
+    if (links && least != PIR_PLAN_NONE) {
+        each_doubted(job, d, least, links, NULL);
+        each_doubted(job, d, least, links, is_divided);
+    }
+    job->status = links ? job->status : PIR_ERR_MEMORY;
+    free(links);
+}
+
+/* Lists the boxes that are doubted: those that are asked, and those that are to be divided and can be. */
 static void list_doubted(pir_rigid_job *job) {
     struct doubt d = {0};
-    bool *is_doubted = calloc(job->leaves, sizeof *is_doubted);
-    if (is_doubted && open_doubt(job, &d)) {
+    bool *is_divided = calloc(job->leaves, sizeof *is_divided);
+    if (is_divided && open_doubt(job, &d)) {
         list_links(job, &d);
         measure(job, &d, 0);
         measure(job, &d, 1);
-        mark(job, &d, is_doubted);
-        mark_ends(job, is_doubted);
+        const uint32_t least = shortest(job, &d);
+        mark(job, &d, least, is_divided);
+        ask_all(job, &d, least, is_divided);
+        mark_ends(job, is_divided);
     } else {
         job->status = PIR_ERR_MEMORY;
     }
     close_doubt(&d);
     job->listed = 0;
-    // in the beginning all middles are looked at
-    for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++)
-        if ((is_doubted[i] || job->leaves == PIR_ROTATION_ROOTS) && job->leaf[i].box.level < PIR_ROTATION_LEVELS &&
+    // in the beginning all middles are looked at, and nothing tells which boxes are nearest
+    const bool is_first = job->leaves == PIR_ROTATION_ROOTS;
+    for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++) {
+        pir_rigid_leaf *leaf = &job->leaf[i];
+        leaf->is_due =
+            (is_divided[i] || (is_first && leaf->is_open)) && leaf->asks == 0 && leaf->box.level < PIR_ROTATION_LEVELS;
+        if ((leaf->asks > 0 || leaf->is_due || is_first) &&
             pir_rigid_grow(job, (void **)&job->list, &job->list_room, job->listed + 1, sizeof *job->list))
             job->list[job->listed++] = i;
-    free(is_doubted);
+    }
+    free(is_divided);
 }
 
-/* Whether a box may block more without being divided: more sums are less than eight boxes. */
-static bool is_thin(const pir_rigid_leaf *leaf) {
-    return !leaf->is_open && !leaf->is_thick;
-}
-
-/* Divides listed boxes as far as the budget goes, or has them block more; how many. */
+/* Divides listed boxes as far as the budget goes, or has them block what they are asked; how many. */
 static uint32_t divide(pir_rigid_job *job) {
     uint32_t count = 0;
+    pir_rigid_boxes_ask(job);
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
-        if (is_thin(&job->leaf[job->list[i]])) {
-            pir_rigid_box_thicken(job, job->list[i]);
+        if (job->leaf[job->list[i]].asks > 0) {
+            pir_rigid_box_refine(job, job->list[i]);
             count++;
-        } else if (job->alive + 7 <= job->question->most_boxes) {
+        } else if (job->leaf[job->list[i]].is_due && job->alive + 7 <= job->question->most_boxes) {
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
@@ -192,7 +266,7 @@ static uint32_t keep_unknown(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (!leaf->is_full && !is_thin(leaf))
+        if (!leaf->is_full && leaf->asks == 0)
             kept[count++] = job->list[i];
     }
     return count;

@@ -87,7 +87,7 @@ static pir_status put_box(const struct box_texts *texts, const pir_rigid_leaf *l
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_box_division division;
     pir_plan_pieces sums;
-    pir_status status = pir_inner_division_make(job->question, &corners, leaf->is_thick, &sums, &division);
+    pir_status status = pir_inner_division_again(job->question, &corners, &leaf->list, &sums, &division);
     if (status == PIR_OK)
         status = check_parts(&division, &leaf->inner);
     uint32_t *root = calloc(leaf->inner.cells > 0 ? leaf->inner.cells : 1, sizeof *root);
