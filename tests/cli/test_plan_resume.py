@@ -57,8 +57,12 @@ def number_of(chart, octant, middle):
     return number
 
 
+# before the parts of a box: the hash of no translations that it is asked to block, and a list of no sums
+UNASKED = struct.pack("=QQIIII", 0xcbf29ce484222325, 0, 0, 0, 0, 0)
+
+
 def block_of(*cells):
-    """A block of cells that are boxes, each a part of its own."""
+    """A block of cells that are boxes, each a part of its own, at the middle of a box of rotations."""
     packed = struct.pack("=dIIII", 0, len(cells), 8 * len(cells), len(cells), 1)
     for part, (low, high) in enumerate(cells):
         packed += struct.pack("=ddddddII", *low, *high, 8, part)
@@ -184,14 +188,14 @@ class Resumed(PlanTest):
         # boxes that say that start and goal are apart, but by other cells
         header = self.journal(16)[:16]
         apart = block_of(((-1, -1, -2), (1, 1, -1)), ((-1, -1, 1), (1, 1, 2)))
-        self.part.write_bytes(journal_of(header, [(number_of(*box, 0), apart) for box in first]))
+        self.part.write_bytes(journal_of(header, [(number_of(*box, 0), UNASKED + apart) for box in first]))
         run = self.run_job("--resume")
         self.assertRegex(run.stderr, "a.json.part: it has a box that is not the same again")
         self.assertEqual((run.returncode, self.out.exists()), (2, False))
         # boxes and middles that say that all is free
         free = block_of(((-1, -1, -2), (1, 1, 2)))
-        self.part.write_bytes(journal_of(header, [(number_of(*box, middle), free) for box in first
-                                                  for middle in (0, 1)]))
+        self.part.write_bytes(journal_of(header, [(number_of(*box, middle), (b"" if middle else UNASKED) + free)
+                                                  for box in first for middle in (0, 1)]))
         told = self.data(*self.job[1:], "-o", self.out, "--resume", "--boxes=32")
         self.assertEqual(told["answer"], "unknown")
 

@@ -244,15 +244,17 @@ static pir_status add_blocking(struct sum_choice *c, const double (*x)[3], uint3
     return status;
 }
 
-/* Adds a point to the list, which makes a sum wider. */
-static pir_status add_point(struct sum_choice *c, uint32_t number, const double x[3]) {
+/* Adds a point to the list, which makes a sum wider; none where rounding puts it outside. */
+static pir_status add_point(struct sum_choice *c, uint32_t number, const double x[3], bool *ret_is_added) {
     pir_inner_list *list = c->list;
-    const uint32_t pair = c->sums->body[number];
+    pir_inner_point point = {.pair = c->sums->body[number]};
+    *ret_is_added = pir_inner_sum_point(c->search, point.pair, c->sums->at[number], x, &point.at);
+    if (!*ret_is_added)
+        return PIR_OK;
     const pir_status status = grow_list((void **)&list->point, list->points + 1, sizeof *list->point);
     if (status != PIR_OK)
         return status;
-    const pir_vec3 point = pir_inner_sum_point(c->search, pair, c->sums->at[number], x);
-    list->point[list->points++] = (pir_inner_point){point, pair};
+    list->point[list->points++] = point;
     return widen(c, number);
 }
 
@@ -284,7 +286,7 @@ static pir_status add_farthest(struct sum_choice *c, const double (*x)[3], uint3
         }
         if (best == sums)
             break;
-        status = add_point(c, best, x[at]);
+        status = add_point(c, best, x[at], &has[at * sums + best]);
     }
     return status;
 }
@@ -342,9 +344,23 @@ static pir_status choose(struct sum_choice *c) {
     return status;
 }
 
+/* Whether a list is one that was made here: it may be a journal's. */
+static pir_status check_list(struct sum_choice *c) {
+    const pir_inner_list *list = c->list;
+    bool good = true;
+    for (uint32_t i = 0; i < list->pairs; i++)
+        for (uint32_t k = 0; k < i; k++)
+            good = good && list->pair[i] != list->pair[k];
+    for (uint32_t i = 0; i < list->points && good; i++) {
+        const pir_vec3 x = list->point[i].at;
+        good = pir_inner_has(c->search, list->point[i].pair, (const double[]){x.x, x.y, x.z});
+    }
+    return good ? PIR_OK : PIR_ERR_FORMAT;
+}
+
 /* Makes the sums of the list and more for translations that none has, and divides by all at once. */
 static pir_status take_list(struct sum_choice *c, const double (*x)[3], uint32_t count) {
-    pir_status status = PIR_OK;
+    pir_status status = check_list(c);
     for (uint32_t i = 0; i < c->list->pairs && status == PIR_OK; i++)
         status = make_sum(c, c->list->pair[i]);
     for (uint32_t i = 0; i < c->sums->count && status == PIR_OK && c->list->points > 0; i++)

@@ -668,10 +668,18 @@ double pir_inner_sum_far(const pir_polytope *sum, const double at[3]) {
     return beyond_facets(sum, (pir_vec3){at[0], at[1], at[2]}, &way);
 }
 
-pir_vec3 pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3]) {
+bool pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3],
+                         pir_vec3 *ret_point) {
     struct sum_search *q = &search->pair[pair];
     pir_vec3 way = {0, 0, 0}, x = {at[0], at[1], at[2]};
     beyond_facets(sum, x, &way);
+    *ret_point = rounded(x, grid_of(q));
     move_outwards(q, way, OUTWARDS * q->robot->size, &x);
-    return rounded(x, grid_of(q));
+    const pir_vec3 farther = rounded(x, grid_of(q));
+    // what is kept is looked at again as it is kept
+    if (is_within(q, farther)) {
+        *ret_point = farther;
+        return true;
+    }
+    return is_within(q, *ret_point);
 }

@@ -54,8 +54,12 @@ pir_status pir_inner_sum_make(pir_inner_search *search, uint32_t pair, pir_polyt
 /* How far a translation is from a sum, about; 0 or less within. */
 double pir_inner_sum_far(const pir_polytope *sum, const double at[3]);
 
-/* A translation that a pair blocks and its sum has not, moved on outwards as far as the pair blocks it. */
-pir_vec3 pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3]);
+/*
+ * A translation that a pair blocks and its sum has not, moved on outwards as far as the pair blocks it; false where the
+ * pair does not block it once it is rounded.
+ */
+bool pir_inner_sum_point(pir_inner_search *search, uint32_t pair, const pir_polytope *sum, const double at[3],
+                         pir_vec3 *ret_point);
 
 /* A sum made wider by such points; NULL where it has no inside. */
 pir_status pir_inner_sum_widen(pir_inner_search *search, const pir_polytope *sum, const pir_vec3 *more, uint32_t count,
