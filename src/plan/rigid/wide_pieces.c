@@ -11,6 +11,8 @@
 #define SHRUNK      0x1p-40 /* how far corners are moved to the middle, of the way */
 #define SAME        1e-9    /* of the size: how far a piece may be beyond another that stands for it */
 #define MOST_SPLITS 2000    /* of one proof */
+#define EVEN        1e-13   /* of the size: how far corners may be from what is even */
+#define MOST_EVEN   4096    /* corners of pieces that are made even */
 
 struct widener {
     pir_plan_space space;
@@ -81,6 +83,19 @@ static pir_plan_cell cell_of(struct widener *w, const pir_plan_sum *hull, const 
     return cell;
 }
 
+/* Whether the pieces have a polytope, which is proven. */
+static pir_status prove_covered(struct widener *w, const pir_polytope *made, bool *ret_covered) {
+    const uint32_t number = w->sums.count;
+    const pir_status status = pir_plan_sums_add(&w->space, made, 0, 0, &w->sums);
+    *ret_covered = false;
+    if (status != PIR_OK)
+        return status;
+    pir_plan_cell own = cell_of(w, &w->sums.sum[number], NULL, NULL);
+    w->splits = 0;
+    *ret_covered = is_covered(w, &own, 0);
+    return w->space.status;
+}
+
 /* A polytope within a cell, proven to be in the pieces; NULL where it is not. */
 static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_polytope **ret_made) {
     pir_vec3 *x = pir_plan_new(&w->space, cell->points, sizeof *x), middle = {0, 0, 0};
@@ -101,16 +116,11 @@ static pir_status round_cell(struct widener *w, const pir_plan_cell *cell, pir_p
     pir_status status = pir_polytope_create(x, cell->points, NULL, &made);
     pir_plan_free(&w->space, x, cell->points, sizeof *x);
     if (status == PIR_OK && pir_polytope_dimension(made) == 3) {
-        const uint32_t number = w->sums.count;
-        status = pir_plan_sums_add(&w->space, made, 0, 0, &w->sums);
-        if (status == PIR_OK) {
-            pir_plan_cell own = cell_of(w, &w->sums.sum[number], NULL, NULL);
-            w->splits = 0;
-            if (is_covered(w, &own, 0)) {
-                *ret_made = made;
-                made = NULL;
-            }
-            status = w->space.status;
+        bool covered;
+        status = prove_covered(w, made, &covered);
+        if (covered) {
+            *ret_made = made;
+            made = NULL;
         }
     }
     pir_polytope_release(made);
@@ -210,6 +220,92 @@ static pir_status make_all(struct widener *w, const pir_plan_pieces *pieces, pir
     return status == PIR_OK ? w->space.status : status;
 }
 
+/* --- even pieces --- */
+
+static bool are_near(pir_vec3 a, pir_vec3 b, double room) {
+    return fabs(a.x - b.x) <= room && fabs(a.y - b.y) <= room && fabs(a.z - b.z) <= room;
+}
+
+static pir_vec3 with_signs(pir_vec3 a, uint32_t signs) {
+    return (pir_vec3){signs & 1 ? -a.x : a.x, signs & 2 ? -a.y : a.y, signs & 4 ? -a.z : a.z};
+}
+
+static double without_noise(double x, double room) {
+    return fabs(x) <= room ? 0 : x;
+}
+
+/* Whether signs map each corner nearly to one. */
+static bool maps_corners(const pir_vec3 *x, uint32_t count, uint32_t signs, double room) {
+    bool all = true;
+    for (uint32_t i = 0; i < count && all; i++) {
+        all = false;
+        for (uint32_t k = 0; k < count && !all; k++)
+            all = are_near(x[k], with_signs(x[i], signs), room);
+    }
+    return all;
+}
+
+/* Moves corners, so that what signs nearly map to each other they do map; false where no signs do. */
+static bool make_even(pir_vec3 *x, uint32_t count, bool *is_done) {
+    double size = 0;
+    bool maps[8] = {true}, any = false;
+    for (uint32_t i = 0; i < count; i++)
+        size = fmax(size, fmax(fabs(x[i].x), fmax(fabs(x[i].y), fabs(x[i].z))));
+    const double room = size * EVEN;
+    for (uint32_t signs = 1; signs < 8; signs++) {
+        maps[signs] = maps_corners(x, count, signs, room);
+        any = any || maps[signs];
+    }
+    for (uint32_t i = 0; i < count && any; i++) {
+        const pir_vec3 from = x[i],
+                       to = {without_noise(from.x, room), without_noise(from.y, room), without_noise(from.z, room)};
+        for (uint32_t signs = 0; signs < 8 && !is_done[i]; signs++)
+            for (uint32_t k = i; k < count && maps[signs]; k++)
+                if (k != i && !is_done[k] && are_near(x[k], with_signs(from, signs), room)) {
+                    x[k] = with_signs(to, signs);
+                    is_done[k] = true;
+                }
+        if (!is_done[i])
+            x[i] = to;
+        is_done[i] = true;
+    }
+    return any;
+}
+
+/* Has pieces that signs nearly map to each other be images, where that keeps them in the union. */
+static pir_status even_out(struct widener *w, pir_plan_pieces *wide) {
+    uint32_t corners = 0;
+    for (uint32_t i = 0; i < wide->count; i++)
+        corners += pir_polytope_vertex_count(wide->at[i]);
+    if (corners > MOST_EVEN)
+        return PIR_OK;
+    pir_vec3 *x = pir_plan_new(&w->space, corners, sizeof *x);
+    bool *is_done = pir_plan_new(&w->space, corners, sizeof *is_done);
+    pir_polytope **made = pir_plan_new(&w->space, wide->count, sizeof *made);
+    pir_status status = w->space.status;
+    for (uint32_t i = 0, c = 0; i < wide->count && status == PIR_OK; i++)
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(wide->at[i]); v++)
+            x[c++] = pir_polytope_vertex(wide->at[i], v);
+    bool good = status == PIR_OK && make_even(x, corners, is_done);
+    for (uint32_t i = 0, c = 0; i < wide->count && good; i++) {
+        const uint32_t count = pir_polytope_vertex_count(wide->at[i]);
+        status = pir_polytope_create(x + c, count, NULL, &made[i]);
+        good = status == PIR_OK && pir_polytope_dimension(made[i]) == 3;
+        if (good)
+            status = prove_covered(w, made[i], &good);
+        c += count;
+    }
+    for (uint32_t i = 0; i < wide->count && made; i++) {
+        pir_polytope *old = good ? wide->at[i] : made[i];
+        wide->at[i] = good ? made[i] : wide->at[i];
+        pir_polytope_release(old);
+    }
+    pir_plan_free(&w->space, x, corners, sizeof *x);
+    pir_plan_free(&w->space, is_done, corners, sizeof *is_done);
+    pir_plan_free(&w->space, made, wide->count, sizeof *made);
+    return status;
+}
+
 pir_status pir_wide_pieces_make(const pir_plan_pieces *pieces, size_t memory, pir_plan_pieces *ret_wide) {
     const pir_allocator allocator = pir_allocator_or_default(NULL);
     struct widener w = {.pieces = pieces->count};
@@ -217,7 +313,9 @@ pir_status pir_wide_pieces_make(const pir_plan_pieces *pieces, size_t memory, pi
                                   .body = calloc(pieces->count, sizeof *ret_wide->body)};
     pir_plan_space_init(&w.space, &allocator, memory);
     w.cutter.space = &w.space;
-    const pir_status status = ret_wide->at && ret_wide->body ? make_all(&w, pieces, ret_wide) : PIR_ERR_MEMORY;
+    pir_status status = ret_wide->at && ret_wide->body ? make_all(&w, pieces, ret_wide) : PIR_ERR_MEMORY;
+    if (status == PIR_OK)
+        status = even_out(&w, ret_wide);
     pir_plan_sums_finish(&w.space, &w.sums);
     pir_plan_cutter_finish(&w.cutter);
     pir_plan_space_finish(&w.space);

@@ -6,6 +6,9 @@
  * what is beyond some of the facets of a piece: those that it needs for being within the union of all pieces. So wide
  * pieces overlap, and about a convex hole each facet of the hole has one that goes from end to end. Their corners are
  * rounded inwards, and that they are within the union is proven for the rounded ones.
+ *
+ * Where signs of coordinates map corners to others but for rounding, corners are moved so that they do it exactly, if
+ * all pieces are then proven to be within the union. So a hole of corners on a circle has its symmetries.
  */
 #ifndef PIR_PLAN_RIGID_WIDE_PIECES_H
 #define PIR_PLAN_RIGID_WIDE_PIECES_H
