@@ -14,6 +14,12 @@ shares a polygon with one of the other of its box, nor a point with one of a box
 an open set, so a path could be moved to go through polygons alone: it never leaves the side of its start. Its end is on
 the other.
 
+Symmetries are told by signs: a diagonal matrix D of them that leaves obstacles and bounds as they are, another, E, that
+leaves the robot, of the same determinant. R v + x is in the robot's place at (R, x) where D (R v + x) is in that at
+(D R E, D x). So what is blocked throughout a box is so, after D, throughout its image, of quaternions d q e: then
+only one box is told with sums, and of its images on which side each free part is. They are a group, i after k being
+i ^ k, so that images of two boxes meet as these do: it is enough to hold each box against all images of all.
+
 A box is four intervals, in 2^-20, of quaternions x, y, z, w, of which one is 1 alone: a quaternion divided by its
 largest component is in one, or its negative is. A box is the hull of its corners q. With B(p, q)v the polar form of
 |q|^2 R(q)v, and q = sum of a_i q_i, |q|^2 R(q)v is the sum of a_i a_k B(q_i, q_k)v, and |q|^2 that of a_i a_k q_i.q_k,
@@ -62,6 +68,43 @@ def form(p, q, v):
     mixed = [s * y + t * x for x, y in zip(a, b)]
     over, level = cross(mixed, v), s * t - dot(a, b)
     return tuple(level * v[k] + over[k] + of_b * a[k] + of_a * b[k] for k in range(3))
+
+
+def multiplied(p, q):
+    """The product of quaternions x, y, z, w."""
+    (*a, s), (*b, t) = p, q
+    return tuple(s * y + t * x + z for x, y, z in zip(a, b, cross(a, b))) + (s * t - dot(a, b),)
+
+
+def signed(signs, v):
+    return tuple(s * x for s, x in zip(signs, v))
+
+
+class Symmetry:
+    """Signs of translations, and of the robot."""
+
+    def __init__(self, whole, signs):
+        need(len(signs) == 6 and all(s in (-1, 1) for s in signs), "signs are 1 or -1")
+        self.signs, self.places, self.turns = signs, signs[:3], []
+        for own in (signs[:3], signs[3:]):
+            odd = own[0] * own[1] * own[2]  # half a turn has two negative signs; the opposite of one has the others
+            self.turns.append(tuple(int(s * odd > 0 and own != [odd] * 3) for s in own) + (int(own == [odd] * 3),))
+        need(signs[0] * signs[1] * signs[2] == signs[3] * signs[4] * signs[5], "a symmetry of one determinant only")
+        for body, own in ((whole.robot, signs[3:]), (whole.obstacles, signs[:3])):
+            pieces = {frozenset(piece.points) for piece in body}
+            need({frozenset(signed(own, p) for p in piece) for piece in pieces} == pieces, "a symmetry that is none")
+        need(all(s > 0 or -a == b for s, a, b in zip(signs, whole.low, whole.high)), "bounds are not symmetric")
+
+    def cell(self, cell):
+        """The image of a part."""
+        return Cell([(signed(self.places, p), on) for p, on in cell.vertices],
+                    [(signed(self.places, n), d) for n, d in cell.planes])
+
+    def box(self, bounds):
+        """The image of a box: components are exchanged, and change signs, such that the one of its chart is 1."""
+        ends = [multiplied(multiplied(self.turns[0], q), self.turns[1]) for q in zip(*bounds)]
+        sign = next(a for a, b in zip(*ends) if a == b) // ONE
+        return [tuple(sorted((sign * a, sign * b))) for a, b in zip(*ends)]
 
 
 def are_apart(a, b):
@@ -149,7 +192,13 @@ class Box(turns.Arc):
             for p in own.points:
                 pair.check(tuple(int(scale * x) for x in p))
             self.sums[k, l] = own.planes
-        self.leaves = self.walk(whole)
+        self.images = [symmetry.box(self.bounds) for symmetry in whole.symmetries]
+        need(self.images[0] == self.bounds, "the first symmetry is to be none")
+        sides = told.get("sides", [])
+        need(len(sides) == len(self.images) - 1 and all(isinstance(text, str) for text in sides),
+             "sides are to be told for each image")
+        self.parts = [(cell, side[0] + "".join(text[cell.node] for text in sides))  # a letter for each image
+                      for side, cells in self.walk(whole).items() for cell in cells]
 
     def check_blocked(self, cell, node, part):
         """A sum has the part."""
@@ -157,21 +206,24 @@ class Box(turns.Arc):
         need(all(dot(n, p) <= d for n, d in self.sums[part[1], part[2]] for p, _ in cell.vertices),
              f"part {node}: not within the sum")
 
-    def has(self, turn):
-        """Whether a rotation is in the box."""
-        chart = self.bounds.index((ONE, ONE))
-        return turn[chart] != 0 and all(low <= ONE * x / turn[chart] <= high
-                                        for x, (low, high) in zip(turn, self.bounds))
+    def sides_at(self, whole, at, turn):
+        """The sides of the parts that have a place, of all images."""
+        for i, (bounds, symmetry) in enumerate(zip(self.images, whole.symmetries)):
+            most = turn[bounds.index((ONE, ONE))]
+            if most != 0 and all(low <= ONE * x / most <= high for x, (low, high) in zip(turn, bounds)):
+                yield from (sides[i] for cell, sides in self.parts if cell.has(signed(symmetry.places, at)))
 
-    def check_apart(self, other, fewest):
-        for name, rival in (("start", "other"), ("other", "start")):
-            for a in self.leaves[name]:
-                for b in other.leaves[rival]:
-                    need(are_apart(a, b) or a.shared(b) < fewest, "parts of different sides meet")
+    def check_apart(self, other, whole, image, fewest):
+        """Parts of the box do not meet those of an image of another where sides are different, in any image of both."""
+        shown = [(whole.symmetries[image].cell(cell), "".join(sides[i ^ image] for i in range(len(sides))))
+                 for cell, sides in other.parts]
+        for a, own in self.parts:
+            for b, sides in shown:
+                need(own == sides or are_apart(a, b) or a.shared(b) < fewest, "parts of different sides meet")
 
-    def touches(self, other):
-        return any(all(a[0] <= b[1] and b[0] <= a[1] for a, b in zip(self.bounds, bounds))
-                   for bounds in (other.bounds, [(-high, -low) for low, high in other.bounds]))
+    def touches(self, bounds):
+        return any(all(a[0] <= b[1] and b[0] <= a[1] for a, b in zip(self.bounds, other))
+                   for other in (bounds, [(-high, -low) for low, high in bounds]))
 
 
 class Motions(Plan):
@@ -183,12 +235,16 @@ class Motions(Plan):
                                        for piece in told[name]] for name in ("robot", "obstacles"))
         self.places = [(vector(told[name]), vector(told[name + "_rotation"], 4)) for name in ("from", "to")]
         need(all(any(turn) for _, turn in self.places), "a quaternion is zero")
+        self.symmetries = [Symmetry(self, signs) for signs in told.get("symmetries", [[1] * 6])]
+        for (i, a), (k, b) in product(enumerate(self.symmetries), repeat=2):
+            need(list(signed(a.signs, b.signs)) == self.symmetries[i ^ k].signs, "symmetries are not in order")
         self.boxes = [Box(self, box) for box in told["boxes"]]
 
     def check_cover(self):
         """The boxes of each chart are what halvings of it leave."""
         todo = [([(ONE, ONE) if k == chart else (-ONE, ONE) for k in range(4)],
-                 [box.bounds for box in self.boxes if box.bounds[chart] == (ONE, ONE)]) for chart in range(4)]
+                 [image for box in self.boxes for image in box.images if image[chart] == (ONE, ONE)])
+                for chart in range(4)]
         while todo:
             bounds, rest = todo.pop()
             if bounds in rest:
@@ -208,15 +264,16 @@ class Motions(Plan):
         whole = Cell.box(self.low, self.high)
         for name, (at, turn) in zip(("start", "other"), self.places):
             need(whole.has(at), "an end is outside of the box")
-            sides = [side for box in self.boxes if box.has(turn) for side in box.leaves
-                     for cell in box.leaves[side] if cell.has(at)]
-            need(set(sides) == {name}, f"an end is not in parts of side {name} alone")
+            sides = {side for box in self.boxes for side in box.sides_at(self, at, turn)}
+            need(sides == {name[0]}, f"an end is not in parts of side {name} alone")
         for i, box in enumerate(self.boxes):
-            box.check_apart(box, 3)
-            for other in self.boxes[:i]:
-                if box.touches(other):
-                    box.check_apart(other, 1)
-        return f"no path: {len(self.boxes)} boxes of rotations keep start and end apart"
+            for other in self.boxes[:i + 1]:
+                for k, image in enumerate(other.images):
+                    if other is box and k == 0:
+                        box.check_apart(box, self, 0, 3)
+                    elif box.touches(image):
+                        box.check_apart(other, self, k, 1)
+        return f"no path: {len(self.boxes) * len(self.symmetries)} boxes of rotations keep start and end apart"
 
 
 def main(path):

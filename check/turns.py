@@ -77,6 +77,7 @@ class Arc(Plan):
                 need(len(part) == 3, f"part {node}: faces of blocked parts count for open bodies alone")
                 self.check_blocked(cell, node, part)
             else:
+                cell.node = node
                 leaves[part[0]].append(cell)
         return leaves
 

@@ -111,6 +111,7 @@ static const struct option plan_options[] = {
     {"--boxes", "N", "by any motion: divide all rotations into N boxes at most (65536)"},
     {"--memory", "MB", "by any motion: say unknown where boxes would take more than so many MiB (4096)"},
     {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
+    {"--asymmetric", NULL, "by any motion: make each box by itself, where symmetries of bodies would save some"},
     {"--resume", NULL,
      "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer"},
     {"--dry-run", NULL, "by any motion: make 32 boxes, and tell about how long --boxes would take, but decide nothing"},

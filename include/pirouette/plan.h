@@ -275,9 +275,14 @@ typedef struct pir_rigid_plan_options {
      */
     bool (*progress)(void *context, uint32_t made, uint32_t written);
     void *context; /**< given to `progress` */
+    /**
+     * 0: where signs of coordinates leave the pieces of P, the obstacles and the bounds as they are, one box stands for
+     * up to 16; 1: each is made by itself. Another answer than unknown is the same, another proof may be given.
+     */
+    uint32_t asymmetric;
 } pir_rigid_plan_options;
 
-/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal, alone. O(1). */
+/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal, alone, symmetries. */
 static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
     const pir_rigid_plan_options options = {sizeof(pir_rigid_plan_options),
                                             pir_solid_options_default().memory,
@@ -290,7 +295,8 @@ static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
                                             NULL,
                                             NULL,
                                             NULL,
-                                            NULL};
+                                            NULL,
+                                            0};
     return options;
 }
 
@@ -311,6 +317,7 @@ typedef struct pir_rigid_plan_info {
     uint32_t boxes, divided; /**< of rotations: those at the end, and those that were divided on the way */
     uint64_t parts;          /**< of all boxes of translations that were divided */
     uint32_t robot_pieces, obstacle_pieces;
+    uint32_t symmetries; /**< how many boxes, of those at the end, one stands for; 1 where there is no symmetry */
 } pir_rigid_plan_info;
 
 /**
@@ -327,8 +334,9 @@ typedef struct pir_rigid_plan_info {
  * An answer other than unknown is proven, and of two questions that only differ in their budgets no two are answered
  * otherwise.
  *
- * Cost: for each box that of pir_path_plan_translate twice. Where a gap is less than a passage needs by a part ε,
- * boxes of size ε are needed where P nearly fits: in general O(ε^-3) of them.
+ * Cost: for each box that of pir_path_plan_translate twice; of boxes that symmetries map to each other, for one alone.
+ * Where a gap is less than a passage needs by a part ε, boxes of size ε are needed where P nearly fits: in general
+ * O(ε^-3) of them.
  *
  * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a pose out of bounds or blocked), PIR_ERR_NOT_FINITE,
  * PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid),

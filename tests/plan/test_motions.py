@@ -4,9 +4,14 @@
 
 Usage: test_motions.py TEST_RIGID_PLAN CHECK_FOLDER
 """
+import os
 import random
+import subprocess
 import sys
+import tempfile
 from fractions import Fraction
+from itertools import product
+from math import prod
 
 import proof_lies
 
@@ -44,6 +49,87 @@ def point_moved(told, parts, random_):
     piece["points"][i] = [str(2 * Fraction(x) - m) for x, m in zip(piece["points"][i], middle)]
 
 
+def other_sign(told, parts, random_):
+    """A symmetry is another, or none of the bodies."""
+    signs = random_.choice(told["symmetries"][1:])
+    signs[random_.randrange(6)] *= -1
+
+
+def symmetries_exchanged(told, parts, random_):
+    i, k = random_.sample(range(len(told["symmetries"])), 2)
+    signs = told["symmetries"]
+    signs[i], signs[k] = signs[k], signs[i]
+
+
+def symmetry_left_out(told, parts, random_):
+    """With all that is told for it: images are left out."""
+    del told["symmetries"][-1]
+    for box in told[parts]:
+        del box["sides"][-1]
+
+
+def half_of_symmetries(told, parts, random_):
+    """A group, but with too few images."""
+    half = len(told["symmetries"]) // 2
+    del told["symmetries"][half:]
+    for box in told[parts]:
+        del box["sides"][half - 1:]
+
+
+def all_bodies_but_one(told, parts, random_):
+    """A corner of an obstacle is moved by an ulp, and so is its image under some symmetries alone."""
+    p = random_.choice(random_.choice(told["obstacles"])["points"])
+    k = random_.randrange(3)
+    p[k] = str(Fraction(p[k]) * (1 + Fraction(1, 2 ** 52)))
+
+
+def bent_robot(told, parts, random_):
+    """A corner of the robot is moved by an ulp."""
+    p = random_.choice(random_.choice(told["robot"])["points"])
+    p[0] = str(Fraction(p[0]) * (1 + Fraction(1, 2 ** 52)))
+
+
+def wider_bounds(told, parts, random_):
+    """Bounds that are not symmetric."""
+    told["high"][0] = str(Fraction(told["high"][0]) + 1)
+
+
+def other_side_of_image(told, parts, random_):
+    """All parts of one side of an image are told to be on the other."""
+    sides = random_.choice(told[parts])["sides"]
+    i = random_.randrange(len(sides))
+    sides[i] = sides[i].replace(*random_.choice([("s", "o"), ("o", "s")]))
+
+
+def sides_of_another(told, parts, random_):
+    """An image has the sides of one that goes the other way through the window."""
+    for box in told[parts]:
+        box["sides"] = [text.translate(str.maketrans("so", "os")) for text in box["sides"]]
+
+
+def two_letters(told, parts, random_):
+    """Letters that stand for several images."""
+    box = random_.choice(told[parts])
+    box["sides"][0] = [letter + letter for letter in box["sides"][0]]
+
+
+def check_signs(motions, random_):
+    """The image of a rotation under signs is the product of three matrices."""
+    from plan import turned
+
+    class Whole:
+        robot = obstacles = ()
+        low, high = (-1, -1, -1), (1, 1, 1)
+
+    for signs in product((-1, 1), repeat=6):
+        q, v = ([Fraction(random_.randrange(-9, 10)) for _ in range(n)] for n in (4, 3))
+        if prod(signs) < 0 or not any(q):
+            continue
+        symmetry = motions.Symmetry(Whole, list(signs))
+        image = motions.multiplied(motions.multiplied(symmetry.turns[0], q), symmetry.turns[1])
+        assert turned(image, v) == motions.signed(signs[:3], turned(tuple(q), motions.signed(signs[3:], v)))
+
+
 def check_form(motions, random_):
     """The polar form of a quaternion with itself is its rotation, and it is linear and symmetric."""
     from plan import turned
@@ -62,7 +148,14 @@ def main(program, folder):
     sys.path.insert(0, folder)
     import motions
     check_form(motions, random.Random(1))
-    lies = [box_twice, wider_box, narrower_box, other_pair, point_moved]
+    check_signs(motions, random.Random(2))
+    with tempfile.TemporaryDirectory() as place:
+        path = os.path.join(place, "proof.json")
+        subprocess.run([program, path, "box"], check=True, stdout=subprocess.DEVNULL)
+        assert motions.main(path) == 0, "a proof of a box is refused"
+    lies = [box_twice, wider_box, narrower_box, other_pair, point_moved, other_sign, symmetries_exchanged,
+            symmetry_left_out, half_of_symmetries, all_bodies_but_one, bent_robot, wider_bounds, other_side_of_image,
+            sides_of_another, two_letters]
     proof_lies.hold(program, motions.main, motions.Motions, "boxes", lies)
 
 

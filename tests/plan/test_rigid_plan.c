@@ -46,14 +46,23 @@ static pir_solid *make_box(pir_vec3 low, pir_vec3 high, pir_polytope **ret_shape
     return solid_of(p, 8, starts, sides, 6);
 }
 
-/* A regular tetrahedron, with a ball of a third of the radius. */
-static pir_solid *make_tetrahedron(double radius, pir_polytope **ret_shape) {
+/* A regular tetrahedron, with a ball of a third of the radius, or one that is nearly so. */
+static pir_solid *make_tetrahedron(double radius, bool is_bent, pir_polytope **ret_shape) {
     static const uint32_t sides[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
     static const uint32_t starts[5] = {0, 3, 6, 9, 12};
     const double e = radius / sqrt(3);
-    const pir_vec3 p[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
+    const pir_vec3 p[4] = {{is_bent ? nextafter(e, 2 * e) : e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
     assert_int_equal(pir_polytope_create(p, 4, NULL, ret_shape), PIR_OK);
     return solid_of(p, 4, starts, sides, 4);
+}
+
+static pir_solid *make_octahedron(double radius, pir_polytope **ret_shape) {
+    static const uint32_t sides[24] = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+    static const uint32_t starts[9] = {0, 3, 6, 9, 12, 15, 18, 21, 24};
+    const double r = radius;
+    const pir_vec3 p[6] = {{r, 0, 0}, {-r, 0, 0}, {0, r, 0}, {0, -r, 0}, {0, 0, r}, {0, 0, -r}};
+    assert_int_equal(pir_polytope_create(p, 6, NULL, ret_shape), PIR_OK);
+    return solid_of(p, 6, starts, sides, 8);
 }
 
 /* A plate about the plane z = 0 with a window along the axes; the robot goes from under it to over it. */
@@ -92,7 +101,7 @@ static void make_window(double diameter, struct gate *g) {
         starts[i] = 4 * i;
     }
     starts[4 * N] = 16 * N;
-    g->robot = make_tetrahedron(sqrt(3. / 8), &g->shape);
+    g->robot = make_tetrahedron(sqrt(3. / 8), false, &g->shape);
     g->wall[0] = solid_of(p, 4 * N, starts, sides, 4 * N);
     g->walls = 1;
     g->plates = N;
@@ -180,10 +189,11 @@ static void check_path(const struct gate *g, const pir_rigid_plan *plan, uint32_
     assert_int_equal(pir_rigid_plan_get_step(plan, steps, &pose[0]), PIR_ERR_ARGUMENT);
 }
 
-static pir_turn_plan_answer ask(const struct gate *g, uint32_t boxes, uint32_t threads, FILE *proof,
-                                pir_rigid_plan_info *ret_info) {
+static pir_turn_plan_answer ask_as(const struct gate *g, bool asymmetric, uint32_t boxes, uint32_t threads, FILE *proof,
+                                   pir_rigid_plan_info *ret_info) {
     pir_rigid_plan_options options = pir_rigid_plan_options_default();
     pir_rigid_plan *plan = NULL;
+    options.asymmetric = asymmetric;
     options.boxes = boxes;
     options.threads = threads;
     options.proof = proof;
@@ -197,6 +207,16 @@ static pir_turn_plan_answer ask(const struct gate *g, uint32_t boxes, uint32_t t
         assert_int_equal(ret_info->steps, 0);
     pir_rigid_plan_destroy(plan);
     return ret_info->answer;
+}
+
+static pir_turn_plan_answer ask(const struct gate *g, uint32_t boxes, uint32_t threads, FILE *proof,
+                                pir_rigid_plan_info *ret_info) {
+    return ask_as(g, false, boxes, threads, proof, ret_info);
+}
+
+static void check_same(const pir_rigid_plan_info *a, const pir_rigid_plan_info *b) {
+    assert_true(a->answer == b->answer && a->steps == b->steps && a->boxes == b->boxes && a->divided == b->divided &&
+                a->parts == b->parts && a->symmetries == b->symmetries);
 }
 
 static void make_gate(double a, double b, double c, double width, double length, struct gate *g) {
@@ -245,11 +265,11 @@ static void test_tight(void **state) {
     (void)state;
     pir_rigid_plan_info info[2];
     struct gate g;
-    g.robot = make_tetrahedron(16, &g.shape);
+    g.robot = make_tetrahedron(16, false, &g.shape);
     make_wall(2, 2, 17, &g);
     assert_int_equal(ask(&g, 32, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
     assert_int_equal(ask(&g, 32, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
-    assert_true(is_same(&info[0], &info[1], sizeof info[0]));
+    check_same(&info[0], &info[1]);
     release_gate(&g);
 }
 
@@ -258,11 +278,11 @@ static void test_disagreement(void **state) {
     (void)state;
     pir_rigid_plan_info info[2];
     struct gate g;
-    g.robot = make_tetrahedron(16, &g.shape);
+    g.robot = make_tetrahedron(16, false, &g.shape);
     make_wall(3.8, 3.8, 17, &g);
     assert_int_equal(ask(&g, 200, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
     assert_int_equal(ask(&g, 200, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
-    assert_true(is_same(&info[0], &info[1], sizeof info[0]));
+    check_same(&info[0], &info[1]);
     assert_int_equal(info[0].boxes, 32 + 7 * info[0].divided);
     release_gate(&g);
 }
@@ -305,7 +325,7 @@ static void test_progress(void **state) {
     (void)state;
     struct gate g;
     pir_rigid_plan_info info;
-    g.robot = make_tetrahedron(16, &g.shape);
+    g.robot = make_tetrahedron(16, false, &g.shape);
     make_wall(2, 2, 17, &g);
     uint32_t calls = 0;
     for (uint32_t end = 0; end <= calls; end++) {
@@ -338,20 +358,56 @@ static void test_gates(void **state) {
     for (int i = 0; i < cases; i++) {
         const double a = uniform(.6, 2), b = uniform(a, 2.2), c = uniform(b, 2.4);
         const double width = uniform(1, 2.4), length = uniform(width, 3);
-        pir_turn_plan_answer answer[2];
+        pir_turn_plan_answer answer[3];
         pir_rigid_plan_info info;
         struct gate g;
         printf("box %g x %g x %g, window %g x %g: ", a, b, c, width, length);
         make_gate(c, a, b, width, length, &g);
-        for (int k = 0; k < 2; k++)
-            answer[k] = ask(&g, k == 0 ? 128 : 512, 1 + (uint32_t)k, NULL, &info);
+        for (int k = 0; k < 3; k++) {
+            answer[k] = ask_as(&g, k < 2, k == 0 ? 128 : 512, 1 + (uint32_t)k, NULL, &info);
+            assert_int_equal(info.symmetries, k < 2 ? 1 : 16);
+            assert_false(answer[k] == PIR_TURN_PLAN_PATH && a > width);
+            assert_false(answer[k] == PIR_TURN_PLAN_NO_PATH && a < width && b < length);
+        }
         assert_true(answer[0] == PIR_TURN_PLAN_UNKNOWN || answer[0] == answer[1]);
-        assert_false(answer[1] == PIR_TURN_PLAN_PATH && a > width);
-        assert_false(answer[1] == PIR_TURN_PLAN_NO_PATH && a < width && b < length);
+        assert_int_not_equal(answer[1] + answer[2], PIR_TURN_PLAN_PATH + PIR_TURN_PLAN_NO_PATH);
         count[answer[1]]++;
         release_gate(&g);
     }
     printf("gates: %d unknown, %d paths, %d without\n", count[0], count[1], count[2]);
+}
+
+/* Solids of symmetries, with and without these, and what an ulp breaks: as many as told, and no answer is another. */
+static void test_symmetric(void **state) {
+    (void)state;
+    const struct {
+        int shape;
+        double radius;
+        bool is_shifted; /* whether a bound is moved by an ulp */
+        uint32_t symmetries;
+    } kind[] = {{0, 16, false, 16}, {0, 16, true, 8},  {1, 16, false, 4},  {1, 16, true, 2},  {2, 16, false, 16},
+                {3, 16, false, 16}, {3, 16, true, 16}, {0, .5, false, 16}, {2, .5, false, 16}};
+    for (size_t i = 0; i < sizeof kind / sizeof *kind; i++) {
+        pir_rigid_plan_info info[3];
+        struct gate g;
+        if (kind[i].shape < 2)
+            g.robot = make_tetrahedron(kind[i].radius, kind[i].shape == 1, &g.shape);
+        else if (kind[i].shape == 2)
+            g.robot = make_octahedron(kind[i].radius, &g.shape);
+        else
+            g.robot = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape);
+        make_wall(2, 2, kind[i].radius + 1, &g);
+        if (kind[i].is_shifted)
+            g.input.high.x = nextafter(g.input.high.x, 2);
+        for (int k = 0; k < 3; k++)
+            ask_as(&g, k == 0, 144, 1 + (uint32_t)k / 2, NULL, &info[k]);
+        check_same(&info[1], &info[2]);
+        assert_int_equal(info[0].symmetries, 1);
+        assert_int_equal(info[1].symmetries, kind[i].symmetries);
+        assert_int_equal(info[0].answer, info[1].answer);
+        assert_int_not_equal(info[0].answer, PIR_TURN_PLAN_UNKNOWN);
+        release_gate(&g);
+    }
 }
 
 static pir_status status_of(const pir_rigid_plan_input *input, const pir_rigid_plan_options *options) {
@@ -404,6 +460,9 @@ static void test_bad(void **state) {
     options.resume = 2;
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
     options.resume = 0;
+    options.asymmetric = 2;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.asymmetric = 0;
     options.journal = "none/journal"; // without a proof, and in no folder
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
     options.journal = NULL;
@@ -421,27 +480,31 @@ static void test_bad(void **state) {
     release_gate(&g);
 }
 
-/* With the name of a file: writes a proof for check/motions.py. */
-static int write_proof(const char *path) {
+/* With the name of a file: writes a proof for check/motions.py, of a tetrahedron or of a box. */
+static int write_proof(const char *path, bool is_box) {
     struct gate g;
     pir_rigid_plan_info info;
     FILE *file = fopen(path, "w");
     if (!file)
         return 1;
-    g.robot = make_tetrahedron(16, &g.shape);
+    if (is_box)
+        g.robot = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape);
+    else
+        g.robot = make_tetrahedron(16, false, &g.shape);
     make_wall(2, 2, 17, &g);
-    const bool is_good = ask(&g, 32, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
+    const bool is_good = ask(&g, 144, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
     release_gate(&g);
     return fclose(file) != 0 || !is_good;
 }
 
 int main(int count, char **words) {
-    if (count == 2)
-        return write_proof(words[1]);
+    if (count > 1)
+        return write_proof(words[1], count > 2);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_wide),  cmocka_unit_test(test_slot),         cmocka_unit_test(test_window),
-        cmocka_unit_test(test_tight), cmocka_unit_test(test_disagreement), cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_gates), cmocka_unit_test(test_bad),          cmocka_unit_test(test_progress)};
+        cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),   cmocka_unit_test(test_window),
+        cmocka_unit_test(test_tight),        cmocka_unit_test(test_gates),  cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),    cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_symmetric)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);

@@ -110,6 +110,29 @@ void pir_box_parts_finish(pir_box_parts *parts) {
     *parts = (pir_box_parts){0};
 }
 
+pir_status pir_box_parts_image(const pir_box_parts *parts, const pir_symmetries *symmetries, uint32_t number,
+                               pir_box_parts *ret_image) {
+    *ret_image = *parts;
+    ret_image->x = calloc(parts->points > 0 ? parts->points : 1, sizeof *ret_image->x);
+    ret_image->cell = calloc(parts->cells > 0 ? parts->cells : 1, sizeof *ret_image->cell);
+    if (!ret_image->x || !ret_image->cell)
+        return PIR_ERR_MEMORY;
+    for (uint32_t v = 0; v < parts->points; v++)
+        pir_symmetries_place(symmetries, number, parts->x[v], ret_image->x[v]);
+    for (uint32_t i = 0; i < parts->cells; i++) {
+        pir_box_cell *to = &ret_image->cell[i];
+        double low[3], high[3];
+        *to = parts->cell[i];
+        pir_symmetries_place(symmetries, number, to->low, low);
+        pir_symmetries_place(symmetries, number, to->high, high);
+        for (int k = 0; k < 3; k++) {
+            to->low[k] = fmin(low[k], high[k]);
+            to->high[k] = fmax(low[k], high[k]);
+        }
+    }
+    return PIR_OK;
+}
+
 size_t pir_box_parts_size(const pir_box_parts *parts) {
     return parts->points * sizeof *parts->x + parts->cells * sizeof *parts->cell;
 }

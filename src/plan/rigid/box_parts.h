@@ -11,10 +11,12 @@
 
 #include "base/byte_block.h"
 #include "plan/join.h"
+#include "plan/rotations/symmetries.h"
 
 /* The question. Rotations and bounds are borrowed for as long as the plan is made. */
 typedef struct pir_rigid_question {
     const pir_plan_pieces *robot, *obstacles, *wide; /* pieces; those of obstacles made wide (wide_pieces.h) */
+    pir_symmetries symmetries;                       /* of robot, wide pieces and bounds */
     double low[3], high[3];                          /* bounds of translations */
     double at[2][3];                                 /* translations: from, to */
     pir_quat rotation[2];                            /* likewise */
@@ -68,6 +70,10 @@ typedef struct pir_box_parts {
 /* Keeps parts of a division that is joined. To be finished also where it fails. */
 pir_status pir_box_parts_keep(const pir_box_division *division, pir_box_parts *ret_parts);
 void pir_box_parts_finish(pir_box_parts *parts);
+
+/* The image of parts under a symmetry. To be finished also where it fails. */
+pir_status pir_box_parts_image(const pir_box_parts *parts, const pir_symmetries *symmetries, uint32_t number,
+                               pir_box_parts *ret_image);
 
 /* The bytes that parts take. */
 size_t pir_box_parts_size(const pir_box_parts *parts);

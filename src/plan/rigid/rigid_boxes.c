@@ -47,27 +47,51 @@ static void drop_touch(pir_rigid_leaf *own, uint32_t other) {
         }
 }
 
-static void touch_both(pir_rigid_job *job, uint32_t a, uint32_t b) {
-    if (pir_rotation_boxes_touch(job->leaf[a].box, job->leaf[b].box)) {
-        add_touch(job, a, b);
-        add_touch(job, b, a);
+/* Has a first leaf and one of another orbit touch where they do. */
+static void touch_both(pir_rigid_job *job, uint32_t first, uint32_t other) {
+    if (pir_rotation_boxes_touch(job->leaf[first].box, job->leaf[other].box)) {
+        add_touch(job, first, other);
+        add_touch(job, pir_rigid_first(job, other), first ^ pir_rigid_image(job, other));
     }
 }
 
-static uint32_t add_leaf(pir_rigid_job *job, pir_rotation_box box, uint32_t parent) {
-    if (!pir_rigid_grow(job, (void **)&job->leaf, &job->leaf_room, job->leaves + 1, sizeof *job->leaf))
+/* Likewise for all orbits from one on, and within each. */
+static void touch_new(pir_rigid_job *job, uint32_t first) {
+    const uint32_t size = job->question->symmetries.count;
+    for (uint32_t i = first; i < job->leaves && job->status == PIR_OK; i += size) {
+        for (uint32_t k = first; k < i; k++)
+            touch_both(job, i, k);
+        for (uint32_t e = 1; e < size; e++)
+            if (pir_rotation_boxes_touch(job->leaf[i].box, job->leaf[i ^ e].box))
+                add_touch(job, i, i ^ e);
+    }
+}
+
+/* Adds an orbit, of a box whose parent is told; its first, or none. */
+static uint32_t add_orbit(pir_rigid_job *job, pir_rotation_box box, uint32_t parent) {
+    const pir_symmetries *s = &job->question->symmetries;
+    const uint32_t first = job->leaves;
+    if (!pir_rigid_grow(job, (void **)&job->leaf, &job->leaf_room, first + s->count, sizeof *job->leaf))
         return PIR_PLAN_NONE;
-    job->leaf[job->leaves] = (pir_rigid_leaf){.box = box, .parent = parent};
-    job->alive++;
-    return job->leaves++;
+    for (uint32_t e = 0; e < s->count; e++)
+        job->leaf[job->leaves++] = (pir_rigid_leaf){.box = pir_symmetries_image(s, e, box),
+                                                    .parent = parent == PIR_PLAN_NONE ? parent : parent ^ e};
+    job->alive += s->count;
+    return first;
+}
+
+static bool has_box(const pir_rigid_job *job, pir_rotation_box box) {
+    for (uint32_t i = 0; i < job->leaves; i++)
+        if (job->leaf[i].box.chart == box.chart && memcmp(job->leaf[i].box.at, box.at, sizeof box.at) == 0)
+            return true;
+    return false;
 }
 
 void pir_rigid_boxes_begin(pir_rigid_job *job) {
-    for (uint32_t i = 0; i < PIR_ROTATION_ROOTS && job->status == PIR_OK; i++) {
-        const uint32_t leaf = add_leaf(job, pir_rotation_box_root(i), PIR_PLAN_NONE);
-        for (uint32_t k = 0; k < leaf && job->status == PIR_OK; k++)
-            touch_both(job, leaf, k);
-    }
+    for (uint32_t i = 0; i < PIR_ROTATION_ROOTS && job->status == PIR_OK; i++)
+        if (!has_box(job, pir_rotation_box_root(i)))
+            add_orbit(job, pir_rotation_box_root(i), PIR_PLAN_NONE);
+    touch_new(job, 0);
 }
 
 static void free_links(pir_rigid_leaf *leaf) {
@@ -86,46 +110,40 @@ static void free_asks(pir_rigid_leaf *leaf) {
     leaf->asks = leaf->ask_room = leaf->shareds = leaf->shared_room = 0;
 }
 
-/* Has the leaves from one on stand for another, which they are parts of. */
+/* Has the orbits from one on stand for another, whose boxes they are parts of. */
 static void replace(pir_rigid_job *job, uint32_t leaf, uint32_t first) {
+    const uint32_t size = job->question->symmetries.count;
     for (uint32_t t = 0; t < job->leaf[leaf].touches && job->status == PIR_OK; t++) {
-        const uint32_t other = job->leaf[leaf].touch[t].other;
-        drop_touch(&job->leaf[other], leaf);
-        for (uint32_t i = 0; first + i < job->leaves && job->status == PIR_OK; i++)
-            touch_both(job, first + i, other);
+        const uint32_t other = job->leaf[leaf].touch[t].other, of_other = pir_rigid_first(job, other);
+        if (of_other == leaf)
+            continue;
+        drop_touch(&job->leaf[of_other], leaf ^ pir_rigid_image(job, other));
+        for (uint32_t i = first; i < job->leaves && job->status == PIR_OK; i += size)
+            touch_both(job, i, other);
     }
-    for (uint32_t i = 0; first + i < job->leaves && job->status == PIR_OK; i++)
-        for (uint32_t k = 0; k < i; k++)
-            touch_both(job, first + i, first + k);
+    touch_new(job, first);
     pir_rigid_leaf *old = &job->leaf[leaf];
     free_links(old);
     job->kept -= pir_box_parts_size(&old->inner) + pir_inner_list_size(&old->list);
     pir_box_parts_finish(&old->inner);
     pir_inner_list_finish(&old->list);
     free_asks(old);
-    old->is_divided = true;
-    job->alive--;
+    for (uint32_t e = 0; e < size; e++)
+        job->leaf[leaf ^ e].is_divided = true;
+    job->alive -= size;
 }
 
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf) {
-    const uint32_t first = job->leaves;
-    const pir_rotation_box box = job->leaf[leaf].box;
+    const uint32_t first = job->leaves, old = pir_rigid_first(job, leaf);
+    const pir_rotation_box box = job->leaf[old].box;
     for (uint32_t i = 0; i < 8; i++)
-        add_leaf(job, pir_rotation_box_child(box, i), leaf);
-    replace(job, leaf, first);
+        add_orbit(job, pir_rotation_box_child(box, i), old);
+    replace(job, old, first);
 }
 
-void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf) {
-    const uint32_t made = add_leaf(job, job->leaf[leaf].box, job->leaf[leaf].parent);
-    if (made == PIR_PLAN_NONE)
-        return;
-    pir_rigid_leaf *own = &job->leaf[made], *old = &job->leaf[leaf];
-    if (!pir_inner_list_copy(&old->list, &own->list))
-        job->status = PIR_ERR_MEMORY;
-    own->list.rounds++;
-    own->shared = old->shared;
-    own->shareds = old->shareds;
-    old->shared = NULL;
+/* Has a leaf stand in the place of another, of the same box. */
+static void take_place(pir_rigid_leaf *own, pir_rigid_leaf *old) {
+    own->parent = old->parent;
     own->is_full = old->is_full;
     own->middle = old->middle;
     own->hub = old->hub;
@@ -135,24 +153,44 @@ void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf) {
     old->hub = NULL;
     old->hubs = old->hub_room = 0;
     old->is_full = false;
-    replace(job, leaf, made);
 }
 
-bool pir_rigid_box_may_refine(const pir_rigid_leaf *leaf) {
-    return !leaf->is_open && !leaf->is_spent && leaf->list.rounds < MOST_ROUNDS;
+void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf) {
+    const uint32_t old = pir_rigid_first(job, leaf), made = add_orbit(job, job->leaf[old].box, PIR_PLAN_NONE);
+    if (made == PIR_PLAN_NONE)
+        return;
+    pir_rigid_leaf *own = &job->leaf[made], *from = &job->leaf[old];
+    if (!pir_inner_list_copy(&from->list, &own->list))
+        job->status = PIR_ERR_MEMORY;
+    own->list.rounds++;
+    own->shared = from->shared;
+    own->shareds = from->shareds;
+    from->shared = NULL;
+    for (uint32_t e = 0; e < job->question->symmetries.count; e++)
+        take_place(&job->leaf[made ^ e], &job->leaf[old ^ e]);
+    replace(job, old, made);
+}
+
+bool pir_rigid_box_may_refine(const pir_rigid_job *job, uint32_t leaf) {
+    const pir_rigid_leaf *first = &job->leaf[pir_rigid_first(job, leaf)];
+    return !job->leaf[leaf].is_open && !first->is_spent && first->list.rounds < MOST_ROUNDS;
 }
 
 /* --- parts --- */
 
-/* Notes which parts have the translations of the ends, about: the box is open where one has both, or none has one. */
-static void note_ends(const pir_rigid_question *question, pir_rigid_leaf *leaf) {
-    const pir_box_parts *parts = &leaf->inner;
-    leaf->end[0] = leaf->end[1] = PIR_PLAN_NONE;
-    for (uint32_t i = 0; i < parts->cells; i++)
-        for (int s = 0; s < 2; s++)
-            if (pir_box_cell_has(parts, &parts->cell[i], question->at[s]))
-                leaf->end[s] = parts->cell[i].part;
-    leaf->is_open = leaf->end[0] == leaf->end[1] || leaf->end[0] == PIR_PLAN_NONE || leaf->end[1] == PIR_PLAN_NONE;
+/* Notes which parts have the translations of the ends, about: a box is open where one has both, or none has one. */
+static void note_ends(pir_rigid_job *job, uint32_t leaf) {
+    const pir_box_parts *parts = &job->leaf[pir_rigid_first(job, leaf)].inner;
+    uint32_t *end = job->leaf[leaf].end;
+    end[0] = end[1] = PIR_PLAN_NONE;
+    for (int s = 0; s < 2; s++) {
+        double at[3];
+        pir_symmetries_place(&job->question->symmetries, pir_rigid_image(job, leaf), job->question->at[s], at);
+        for (uint32_t i = 0; i < parts->cells; i++)
+            if (pir_box_cell_has(parts, &parts->cell[i], at))
+                end[s] = parts->cell[i].part;
+    }
+    job->leaf[leaf].is_open = end[0] == end[1] || end[0] == PIR_PLAN_NONE || end[1] == PIR_PLAN_NONE;
 }
 
 /* The blocks of a box; those of rounds follow. */
@@ -168,7 +206,7 @@ static uint64_t block_number(pir_rotation_box box, uint32_t kind) {
 
 static pir_rigid_leaf *new_leaf(void *data, uint32_t index) {
     const pir_rigid_job *job = data;
-    return &job->leaf[job->first_new + index];
+    return &job->leaf[job->first_new + index * job->question->symmetries.count];
 }
 
 static uint64_t leaf_number(void *data, uint32_t index) {
@@ -202,7 +240,8 @@ static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
 static bool tell_leaves(void *data, uint32_t done) {
     const pir_rigid_job *job = data;
     const pir_rigid_question *q = job->question;
-    return !q->progress || q->progress(q->context, job->alive - (job->leaves - job->first_new - done), 0);
+    const uint32_t left = job->leaves - job->first_new - done * q->symmetries.count;
+    return !q->progress || q->progress(q->context, job->alive - left, 0);
 }
 
 /* Takes a list and parts of bytes; false where they are none, or of what was asked otherwise. */
@@ -229,11 +268,9 @@ static bool unpack_leaf(const pir_rigid_job *job, const pir_bytes *block, pir_ri
 }
 
 static bool take_leaf(void *data, uint32_t index, pir_status status, const pir_bytes *block) {
-    const pir_rigid_job *job = data;
     pir_rigid_leaf *leaf = new_leaf(data, index);
     leaf->status = status;
-    const bool good = status != PIR_OK || unpack_leaf(job, block, leaf);
-    note_ends(job->question, leaf);
+    const bool good = status != PIR_OK || unpack_leaf(data, block, leaf);
     return good;
 }
 
@@ -248,7 +285,6 @@ static pir_status make_leaf(void *data, uint32_t index) {
                                            &leaf->list, &sums, &division);
     if (leaf->status == PIR_OK)
         leaf->status = pir_box_parts_keep(&division, &leaf->inner);
-    note_ends(job->question, leaf);
     leaf->is_spent = leaf->list.rounds > 0 && leaf->list.pairs + leaf->list.points == old;
     pir_box_division_finish(&division);
     pir_plan_pieces_over_free(&sums);
@@ -270,7 +306,6 @@ static bool pack_middle(void *data, uint32_t index, pir_bytes *block) {
 
 /* Notes how a middle was made; a robot that is too thin for outer pieces has no hubs. */
 static pir_status note_middle(pir_rigid_leaf *leaf, pir_status status) {
-    leaf->is_full = status == PIR_OK;
     leaf->status = status == PIR_ERR_LIMIT ? PIR_OK : status;
     return status;
 }
@@ -333,14 +368,30 @@ static pir_status link_two(const pir_box_parts *a, const pir_box_parts *b, pir_r
     return PIR_OK;
 }
 
+/* Links the first of an orbit with another leaf, whose parts are made where it is no first one. */
+static pir_status link_with(const pir_rigid_job *job, const pir_rigid_leaf *leaf, pir_rigid_touch *touch) {
+    const uint32_t image = pir_rigid_image(job, touch->other);
+    const pir_box_parts *of_other = &job->leaf[pir_rigid_first(job, touch->other)].inner;
+    pir_box_parts turned;
+    if (image == 0)
+        return link_two(&leaf->inner, of_other, touch);
+    pir_status status = pir_box_parts_image(of_other, &job->question->symmetries, image, &turned);
+    if (status == PIR_OK)
+        status = link_two(&leaf->inner, &turned, touch);
+    pir_box_parts_finish(&turned);
+    return status;
+}
+
 static void link_leaf(void *data, uint32_t index) {
     pir_rigid_job *job = data;
-    const uint32_t own = job->first_new + index;
-    pir_rigid_leaf *leaf = &job->leaf[own];
+    pir_rigid_leaf *leaf = new_leaf(data, index);
+    const uint32_t own = (uint32_t)(leaf - job->leaf);
+    for (uint32_t e = 0; e < job->question->symmetries.count; e++)
+        note_ends(job, own ^ e);
     for (uint32_t i = 0; i < leaf->touches && leaf->status == PIR_OK; i++) {
         pir_rigid_touch *touch = &leaf->touch[i];
-        if (touch->other < own && !touch->is_linked)
-            leaf->status = link_two(&leaf->inner, &job->leaf[touch->other].inner, touch);
+        if (pir_rigid_first(job, touch->other) <= own && !touch->is_linked)
+            leaf->status = link_with(job, leaf, touch);
     }
 }
 
@@ -360,8 +411,17 @@ static void list_shared(pir_rigid_leaf *leaf, const pir_rigid_ask *ask, const pi
 static void look_leaf(void *data, uint32_t index) {
     pir_rigid_leaf *leaf = listed_leaf(data, index);
     const pir_rigid_job *job = data;
-    for (uint32_t i = 0; i < leaf->asks; i++)
-        list_shared(leaf, &leaf->ask[i], &job->leaf[leaf->ask[i].other].inner);
+    for (uint32_t i = 0; i < leaf->asks && leaf->status == PIR_OK; i++) {
+        const uint32_t other = leaf->ask[i].other, image = pir_rigid_image(job, other);
+        const pir_box_parts *of_other = &job->leaf[pir_rigid_first(job, other)].inner;
+        pir_box_parts turned = {0};
+        if (image != 0)
+            leaf->status = pir_box_parts_image(of_other, &job->question->symmetries, image, &turned);
+        if (leaf->status == PIR_OK)
+            list_shared(leaf, &leaf->ask[i], image == 0 ? of_other : &turned);
+        if (image != 0)
+            pir_box_parts_finish(&turned);
+    }
 }
 
 void pir_rigid_boxes_ask(pir_rigid_job *job) {
@@ -374,6 +434,8 @@ void pir_rigid_boxes_ask(pir_rigid_job *job) {
     }
     tasks.start(tasks.context, look_leaf, job, job->listed);
     tasks.finish(tasks.context);
+    for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
+        job->status = job->leaf[job->list[i]].status;
 }
 
 /* Counts what a division left. */
@@ -385,11 +447,11 @@ static void count_parts(pir_rigid_job *job, const pir_box_parts *parts) {
 }
 
 void pir_rigid_boxes_make(pir_rigid_job *job) {
-    const uint32_t count = job->leaves - job->first_new;
+    const uint32_t size = job->question->symmetries.count, count = (job->leaves - job->first_new) / size;
     const pir_tasks tasks = job->makers->tasks;
     const pir_block_work work = {job, count, leaf_number, make_leaf, pack_leaf, take_leaf, tell_leaves};
     job->status = pir_blocks_make(job->makers, &work);
-    for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++) {
+    for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i += size) {
         job->status = job->leaf[i].status;
         job->kept += pir_inner_list_size(&job->leaf[i].list);
         count_parts(job, &job->leaf[i].inner);
@@ -403,7 +465,8 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
         job->status = job->leaf[i].status;
 }
 
-void pir_rigid_boxes_fill(pir_rigid_job *job) {
+/* Divides the translations at the middles of first leaves that the job lists. */
+static void make_middles(pir_rigid_job *job) {
     const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle, NULL};
     job->status = pir_blocks_make(job->makers, &work);
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
@@ -412,23 +475,55 @@ void pir_rigid_boxes_fill(pir_rigid_job *job) {
     }
 }
 
+/* Images of free parts are as good as the pieces are symmetric; paths do not rest on them, but are proven anew. */
+void pir_rigid_boxes_fill(pir_rigid_job *job) {
+    uint32_t *first = calloc((size_t)job->listed + 1, sizeof *first), *all = job->list;
+    const uint32_t listed = job->listed;
+    if (!first) {
+        job->status = PIR_ERR_MEMORY;
+        return;
+    }
+    job->listed = 0;
+    for (uint32_t i = 0; i < listed; i++) {
+        const uint32_t own = pir_rigid_first(job, all[i]);
+        if (!job->leaf[own].middle.x && (job->listed == 0 || first[job->listed - 1] != own))
+            first[job->listed++] = own;
+    }
+    job->list = first;
+    make_middles(job);
+    job->list = all;
+    job->listed = listed;
+    for (uint32_t i = 0; i < listed && job->status == PIR_OK; i++) {
+        pir_rigid_leaf *leaf = &job->leaf[all[i]];
+        const pir_rigid_leaf *own = &job->leaf[pir_rigid_first(job, all[i])];
+        leaf->is_full = own->middle.x;
+        if (!leaf->is_full || leaf == own)
+            continue;
+        job->status =
+            pir_box_parts_image(&own->middle, &job->question->symmetries, pir_rigid_image(job, all[i]), &leaf->middle);
+        count_parts(job, &leaf->middle);
+    }
+    free(first);
+}
+
 void pir_rigid_boxes_join(pir_rigid_job *job) {
     job->nodes = 0;
     for (uint32_t i = 0; i < job->leaves; i++)
         if (!job->leaf[i].is_divided) {
             job->leaf[i].node = job->nodes;
-            job->nodes += job->leaf[i].inner.parts;
+            job->nodes += job->leaf[pir_rigid_first(job, i)].inner.parts;
         }
     if (!pir_rigid_grow(job, (void **)&job->root, &job->root_room, job->nodes, sizeof *job->root))
         return;
     for (uint32_t i = 0; i < job->nodes; i++)
         job->root[i] = i;
     for (uint32_t i = 0; i < job->leaves; i++)
-        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
-            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+        for (uint32_t t = 0; t < job->leaf[pir_rigid_first(job, i)].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[pir_rigid_first(job, i)].touch[t];
+            const pir_rigid_leaf *other = &job->leaf[touch->other ^ pir_rigid_image(job, i)];
             for (uint32_t l = 0; l < touch->links; l++) {
                 const uint32_t a = pir_rigid_root(job->root, job->leaf[i].node + touch->link[l][0]);
-                job->root[a] = pir_rigid_root(job->root, job->leaf[touch->other].node + touch->link[l][1]);
+                job->root[a] = pir_rigid_root(job->root, other->node + touch->link[l][1]);
             }
         }
 }

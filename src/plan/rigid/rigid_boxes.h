@@ -2,8 +2,9 @@
 /*
  * The boxes of a plan: which there are, which touch, how their parts are linked.
  *
- * Invariants: leaves that are not divided cover all rotations; two of them have each other in their lists exactly where
- * they share a rotation. Parts of two that may share a translation are linked.
+ * Invariants: leaves that are not divided cover all rotations; the first of an orbit has in its list exactly those that
+ * it shares a rotation with, others of its orbit among them. Parts of two that may share a translation are linked: the
+ * list of the greater first one has the links, within an orbit both ways.
  */
 #ifndef PIR_PLAN_RIGID_RIGID_BOXES_H
 #define PIR_PLAN_RIGID_RIGID_BOXES_H
@@ -13,17 +14,17 @@
 /* The first boxes. */
 void pir_rigid_boxes_begin(pir_rigid_job *job);
 
-/* Replaces a leaf by its halves. */
+/* Replaces the orbit of a leaf by its halves. */
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
 
 /* Finds translations that the links share of which listed boxes are asked. */
 void pir_rigid_boxes_ask(pir_rigid_job *job);
 
-/* Replaces a leaf by one that is to block these, which takes its hubs. */
+/* Replaces the orbit of a leaf by leaves that are to block these, which take their hubs. */
 void pir_rigid_box_refine(pir_rigid_job *job, uint32_t leaf);
 
 /* Whether a box may block more without being divided. */
-bool pir_rigid_box_may_refine(const pir_rigid_leaf *leaf);
+bool pir_rigid_box_may_refine(const pir_rigid_job *job, uint32_t leaf);
 
 /* Makes the inner parts of all leaves that are new, and the links between them and others. */
 void pir_rigid_boxes_make(pir_rigid_job *job);

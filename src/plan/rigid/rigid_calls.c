@@ -53,8 +53,9 @@ static pir_status check_numbers(const struct rigid_call *t) {
     }
     if (t->how.boxes < PIR_ROTATION_ROOTS || t->how.threads == 0)
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, or no thread", PIR_ROTATION_ROOTS);
-    if (t->how.resume > 1 || (t->how.journal && !t->how.proof))
-        return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: resume is neither 0 nor 1, or a journal has no proof");
+    if (t->how.resume > 1 || t->how.asymmetric > 1 || (t->how.journal && !t->how.proof))
+        return pir_fail(t->how.report, PIR_ERR_ARGUMENT,
+                        "plan: resume or asymmetric is neither 0 nor 1, or a journal has no proof");
     const pir_plan_ranks *ranks = t->how.ranks;
     if (ranks && (ranks->number >= ranks->count || !ranks->exchange || (ranks->number > 0 && t->how.journal)))
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT,
@@ -169,10 +170,13 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
         status = pir_wide_pieces_make(&t->obstacles, t->how.memory, &t->wide);
     if (status != PIR_OK)
         return status;
+    t->question.symmetries.count = 1;
+    if (t->how.asymmetric == 0)
+        t->question.symmetries = pir_symmetries_of(&t->robot, &t->wide, t->question.low, t->question.high);
     status = decide_with(t, &plan->result);
     const pir_rigid_result *r = &plan->result;
-    plan->info =
-        (pir_rigid_plan_info){r->answer, r->steps, r->boxes, r->divided, r->parts, t->robot.count, t->obstacles.count};
+    plan->info = (pir_rigid_plan_info){r->answer, r->steps,       r->boxes,           r->divided,
+                                       r->parts,  t->robot.count, t->obstacles.count, t->question.symmetries.count};
     return status;
 }
 

@@ -108,12 +108,24 @@ static bool add_number(pir_rigid_job *job) {
     return true;
 }
 
+/* How many leaves one touches, and which these are. */
+static uint32_t touches_of(const pir_rigid_job *job, uint32_t leaf) {
+    return job->leaf[pir_rigid_first(job, leaf)].touches;
+}
+
+static uint32_t touched_by(const pir_rigid_job *job, uint32_t leaf, uint32_t touch) {
+    return job->leaf[pir_rigid_first(job, leaf)].touch[touch].other ^ pir_rigid_image(job, leaf);
+}
+
 /* The part of the inner ones that a hub is in is a choice that doubles make. */
-static void place_hub(const pir_rigid_leaf *own, pir_rigid_hub *hub) {
+static void place_hub(const pir_rigid_job *job, uint32_t leaf, pir_rigid_hub *hub) {
+    const pir_box_parts *inner = &job->leaf[pir_rigid_first(job, leaf)].inner;
+    double at[3];
+    pir_symmetries_place(&job->question->symmetries, pir_rigid_image(job, leaf), hub->at, at);
     hub->in = PIR_PLAN_NONE;
-    for (uint32_t i = 0; i < own->inner.cells && hub->in == PIR_PLAN_NONE; i++)
-        if (pir_box_cell_has(&own->inner, &own->inner.cell[i], hub->at))
-            hub->in = own->inner.cell[i].part;
+    for (uint32_t i = 0; i < inner->cells && hub->in == PIR_PLAN_NONE; i++)
+        if (pir_box_cell_has(inner, &inner->cell[i], at))
+            hub->in = inner->cell[i].part;
 }
 
 /* A new hub of a leaf. */
@@ -123,7 +135,7 @@ static pir_rigid_hub *add_hub(pir_rigid_job *job, uint32_t leaf, const double at
         return NULL;
     pir_rigid_hub *hub = &own->hub[own->hubs++];
     *hub = (pir_rigid_hub){{at[0], at[1], at[2]}, job->hubs - 1, PIR_PLAN_NONE};
-    place_hub(own, hub);
+    place_hub(job, leaf, hub);
     return hub;
 }
 
@@ -257,13 +269,13 @@ void pir_rigid_hubs_begin(pir_rigid_job *job) {
 void pir_rigid_hubs_inherit(pir_rigid_job *job) {
     for (uint32_t i = job->first_new; i < job->leaves; i++)
         for (uint32_t h = 0; h < job->leaf[i].hubs; h++)
-            place_hub(&job->leaf[i], &job->leaf[i].hub[h]);
+            place_hub(job, i, &job->leaf[i].hub[h]);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++)
         if (job->leaf[i].parent != PIR_PLAN_NONE)
             take_hubs(job, i, job->leaf[i].parent);
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i++)
-        for (uint32_t t = 0; t < job->leaf[i].touches && job->status == PIR_OK; t++)
-            take_hubs(job, i, job->leaf[i].touch[t].other);
+        for (uint32_t t = 0; t < touches_of(job, i) && job->status == PIR_OK; t++)
+            take_hubs(job, i, touched_by(job, i, t));
 }
 
 /* Has the parts of a full leaf be its first hubs; those that it had are joined with the parts that have them. */
@@ -300,8 +312,8 @@ void pir_rigid_hubs_join(pir_rigid_job *job) {
         const uint32_t i = job->list[n];
         if (job->leaf[i].parent != PIR_PLAN_NONE)
             join_leaves(job, i, job->leaf[i].parent);
-        for (uint32_t t = 0; t < job->leaf[i].touches && job->status == PIR_OK; t++)
-            join_leaves(job, i, job->leaf[i].touch[t].other);
+        for (uint32_t t = 0; t < touches_of(job, i) && job->status == PIR_OK; t++)
+            join_leaves(job, i, touched_by(job, i, t));
         for (uint32_t end = 0; end < PIR_RIGID_ENDS && job->status == PIR_OK; end++)
             join_end(job, end, i);
     }

@@ -23,6 +23,10 @@
  * share, and are made anew with more or wider sums. A link of which neither box can do that has the larger one halved.
  * Only new boxes are looked at.
  *
+ * Symmetries (symmetries.h) map leaves to leaves: those of an orbit stand beside each other, the image of leaf i under
+ * symmetry k is leaf i ^ k, and all are divided at once. What their boxes have in common the first of them has: inner
+ * parts, which leaves it touches, the links. The others have the images of these.
+ *
  * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
  * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.
  */
@@ -34,9 +38,9 @@
 
 #include "plan/blocks/block_work.h"
 #include "plan/rigid/inner_division.h"
-#include "plan/rigid/rotation_box.h"
+#include "plan/rotations/rotation_box.h"
 
-/* Another leaf that a leaf touches; links join parts of both, and stand with the one of the greater number. */
+/* Another leaf that a leaf touches; links join parts of both, each numbered as in the first of its orbit. */
 typedef struct pir_rigid_touch {
     uint32_t other, links;
     uint32_t (*link)[2]; /* own part, the other's */
@@ -54,24 +58,24 @@ typedef struct pir_rigid_hub {
     uint32_t node, in; /* its number; the part of the box's inner ones that it is in, or none */
 } pir_rigid_hub;
 
-/* A box of rotations. One that was divided keeps its hubs. */
+/* A box of rotations. One that was divided keeps its hubs. What is marked with * the first of an orbit alone has. */
 typedef struct pir_rigid_leaf {
     pir_rotation_box box;
-    bool is_divided, is_full; /* whether the parts at the middle are known: the first hubs are these */
-    bool is_open, is_spent;   /* whether inner sums leave a way between the ends; whether no more help */
+    bool is_divided, is_full; /* whether hubs are those of the parts at the middle, the first ones */
+    bool is_open, is_spent;   /* whether inner sums leave a way between the ends; whether no more help * */
     bool is_due;              /* whether it is to be divided */
     uint32_t end[2];          /* the inner parts that have the ends' translations, or none */
     uint32_t parent;          /* PIR_PLAN_NONE of roots */
-    pir_inner_list list;
-    pir_box_parts inner;  /* for the inner sums of the list */
-    pir_box_parts middle; /* at the middle, where it is full */
+    pir_inner_list list;      /* * */
+    pir_box_parts inner;      /* for the inner sums of the list * */
+    pir_box_parts middle;     /* at the middle, where it is full, or another of the orbit is * */
     pir_rigid_hub *hub;
-    uint32_t node; /* the first */
-    pir_rigid_touch *touch;
+    uint32_t node;          /* the first */
+    pir_rigid_touch *touch; /* * */
     uint32_t touches, room, hubs, hub_room;
-    pir_rigid_ask *ask;
+    pir_rigid_ask *ask; /* * */
     uint32_t asks, ask_room;
-    double (*shared)[3]; /* translations that it is to block */
+    double (*shared)[3]; /* translations that it is to block * */
     uint32_t shareds, shared_room;
     pir_status status; /* of its making */
 } pir_rigid_leaf;
@@ -111,6 +115,15 @@ typedef struct pir_rigid_result {
     pir_pose *step; /* of a path; from malloc */
     uint32_t steps;
 } pir_rigid_result;
+
+/* The first of the orbit of a leaf; which symmetry makes the leaf of that. */
+static inline uint32_t pir_rigid_first(const pir_rigid_job *job, uint32_t leaf) {
+    return leaf & ~(job->question->symmetries.count - 1);
+}
+
+static inline uint32_t pir_rigid_image(const pir_rigid_job *job, uint32_t leaf) {
+    return leaf & (job->question->symmetries.count - 1);
+}
 
 /* Grows an array of the job's; false once its status is a failure. */
 bool pir_rigid_grow(pir_rigid_job *job, void **array, uint32_t *room, uint32_t need, size_t size);

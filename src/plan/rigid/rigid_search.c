@@ -21,7 +21,7 @@ static bool open_doubt(const pir_rigid_job *job, struct doubt *d) {
     size_t links = 0;
     for (uint32_t i = 0; i < job->leaves; i++)
         for (uint32_t t = 0; t < job->leaf[i].touches; t++)
-            links += job->leaf[i].touch[t].links;
+            links += (size_t)job->leaf[i].touch[t].links * job->question->symmetries.count;
     d->first = calloc((size_t)job->nodes + 2, sizeof *d->first);
     d->next = calloc(2 * links + 1, sizeof *d->next);
     d->leaf = calloc((size_t)job->nodes + 1, sizeof *d->leaf);
@@ -43,11 +43,11 @@ static void close_doubt(struct doubt *d) {
 /* Calls for both nodes of each link: counts where `list` is false, else lists. */
 static void each_link(const pir_rigid_job *job, struct doubt *d, bool list) {
     for (uint32_t i = 0; i < job->leaves; i++)
-        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
-            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+        for (uint32_t t = 0; t < job->leaf[pir_rigid_first(job, i)].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[pir_rigid_first(job, i)].touch[t];
+            const pir_rigid_leaf *other = &job->leaf[touch->other ^ pir_rigid_image(job, i)];
             for (uint32_t l = 0; l < touch->links; l++) {
-                const uint32_t a = job->leaf[i].node + touch->link[l][0];
-                const uint32_t b = job->leaf[touch->other].node + touch->link[l][1];
+                const uint32_t a = job->leaf[i].node + touch->link[l][0], b = other->node + touch->link[l][1];
                 if (list) {
                     d->next[d->first[a + 1]++] = b;
                     d->next[d->first[b + 1]++] = a;
@@ -65,7 +65,7 @@ static void list_links(const pir_rigid_job *job, struct doubt *d) {
         d->first[n] += d->first[n - 1];
     each_link(job, d, true);
     for (uint32_t i = 0; i < job->leaves; i++)
-        for (uint32_t p = 0; !job->leaf[i].is_divided && p < job->leaf[i].inner.parts; p++)
+        for (uint32_t p = 0; !job->leaf[i].is_divided && p < job->leaf[pir_rigid_first(job, i)].inner.parts; p++)
             d->leaf[job->leaf[i].node + p] = i;
 }
 
@@ -81,11 +81,14 @@ static uint32_t list_ends(const pir_rigid_job *job, int side, uint32_t *node, ui
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->leaves; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[i];
+        const pir_box_parts *inner = &job->leaf[pir_rigid_first(job, i)].inner;
+        double at[3];
         if (leaf->is_divided || !pir_rotation_box_has(leaf->box, job->question->rotation[side]))
             continue;
-        for (uint32_t k = 0; k < leaf->inner.cells && count < room; k++)
-            if (pir_box_cell_has(&leaf->inner, &leaf->inner.cell[k], job->question->at[side]))
-                node[count++] = leaf->node + leaf->inner.cell[k].part;
+        pir_symmetries_place(&job->question->symmetries, pir_rigid_image(job, i), job->question->at[side], at);
+        for (uint32_t k = 0; k < inner->cells && count < room; k++)
+            if (pir_box_cell_has(inner, &inner->cell[k], at))
+                node[count++] = leaf->node + inner->cell[k].part;
     }
     return count;
 }
@@ -161,8 +164,19 @@ static bool is_on_way(const struct doubt *d, uint32_t a, uint32_t b, uint32_t le
     return false;
 }
 
+/* How often the boxes of the orbit of a leaf are asked. */
+static uint32_t asks_of(const pir_rigid_job *job, uint32_t leaf) {
+    return job->leaf[pir_rigid_first(job, leaf)].asks;
+}
+
+/* Asks the first of the orbit of a leaf, in its own translations, where it is not asked for that yet. */
 static bool ask(pir_rigid_job *job, uint32_t leaf, pir_rigid_ask what) {
-    pir_rigid_leaf *own = &job->leaf[leaf];
+    pir_rigid_leaf *own = &job->leaf[pir_rigid_first(job, leaf)];
+    what.other ^= pir_rigid_image(job, leaf);
+    for (uint32_t i = 0; i < own->asks; i++)
+        if (own->ask[i].part == what.part && own->ask[i].other == what.other &&
+            own->ask[i].other_part == what.other_part)
+            return true;
     if (pir_rigid_grow(job, (void **)&own->ask, &own->ask_room, own->asks + 1, sizeof *own->ask))
         own->ask[own->asks++] = what;
     return job->status == PIR_OK;
@@ -175,10 +189,11 @@ static bool ask(pir_rigid_job *job, uint32_t leaf, pir_rigid_ask what) {
  */
 static void ask_link(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t part[2], const uint32_t *links,
                      bool *is_divided) {
-    const pir_rigid_leaf *of[2] = {&job->leaf[leaf[0]], &job->leaf[leaf[1]]};
-    bool may[2] = {pir_rigid_box_may_refine(of[0]), pir_rigid_box_may_refine(of[1])};
+    const uint32_t first[2] = {pir_rigid_first(job, leaf[0]), pir_rigid_first(job, leaf[1])};
+    const pir_rigid_leaf *of[2] = {&job->leaf[first[0]], &job->leaf[first[1]]};
+    bool may[2] = {pir_rigid_box_may_refine(job, leaf[0]), pir_rigid_box_may_refine(job, leaf[1])};
     if (may[0] && may[1] && of[0]->list.rounds == 0 && of[1]->list.rounds == 0)
-        may[links[leaf[0]] < links[leaf[1]]] = false;
+        may[links[first[0]] < links[first[1]]] = false;
     for (int s = 0; s < 2; s++) {
         if (may[s])
             ask(job, leaf[s], (pir_rigid_ask){part[s], leaf[1 - s], part[1 - s]});
@@ -190,14 +205,15 @@ static void ask_link(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t 
 /* Calls for the links on shortest ways: counts those of each box, or asks. */
 static void each_doubted(pir_rigid_job *job, const struct doubt *d, uint32_t least, uint32_t *links, bool *is_divided) {
     for (uint32_t i = 0; i < job->leaves; i++)
-        for (uint32_t t = 0; t < job->leaf[i].touches; t++) {
-            const pir_rigid_touch *touch = &job->leaf[i].touch[t];
+        for (uint32_t t = 0; t < job->leaf[pir_rigid_first(job, i)].touches; t++) {
+            const pir_rigid_touch *touch = &job->leaf[pir_rigid_first(job, i)].touch[t];
             for (uint32_t l = 0; l < touch->links; l++) {
-                const uint32_t leaf[2] = {i, touch->other}, part[2] = {touch->link[l][0], touch->link[l][1]};
+                const uint32_t leaf[2] = {i, touch->other ^ pir_rigid_image(job, i)},
+                               part[2] = {touch->link[l][0], touch->link[l][1]};
                 if (!is_on_way(d, job->leaf[i].node + part[0], job->leaf[leaf[1]].node + part[1], least))
                     continue;
-                links[leaf[0]] += !is_divided;
-                links[leaf[1]] += !is_divided;
+                links[pir_rigid_first(job, leaf[0])] += !is_divided;
+                links[pir_rigid_first(job, leaf[1])] += !is_divided;
                 if (is_divided)
                     ask_link(job, leaf, part, links, is_divided);
             }
@@ -236,8 +252,8 @@ static void list_doubted(pir_rigid_job *job) {
     const bool is_first = job->leaves == PIR_ROTATION_ROOTS;
     for (uint32_t i = 0; i < job->leaves && job->status == PIR_OK; i++) {
         pir_rigid_leaf *leaf = &job->leaf[i];
-        leaf->is_due =
-            (is_divided[i] || (is_first && leaf->is_open)) && leaf->asks == 0 && leaf->box.level < PIR_ROTATION_LEVELS;
+        leaf->is_due = (is_divided[i] || (is_first && leaf->is_open)) && asks_of(job, i) == 0 &&
+                       leaf->box.level < PIR_ROTATION_LEVELS;
         if ((leaf->asks > 0 || leaf->is_due || is_first) &&
             pir_rigid_grow(job, (void **)&job->list, &job->list_room, job->listed + 1, sizeof *job->list))
             job->list[job->listed++] = i;
@@ -251,10 +267,13 @@ static uint32_t divide(pir_rigid_job *job) {
     pir_rigid_boxes_ask(job);
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
-        if (job->leaf[job->list[i]].asks > 0) {
+        if (job->leaf[job->list[i]].is_divided) {
+            continue; // with another of its orbit
+        } else if (asks_of(job, job->list[i]) > 0) {
             pir_rigid_box_refine(job, job->list[i]);
             count++;
-        } else if (job->leaf[job->list[i]].is_due && job->alive + 7 <= job->question->most_boxes) {
+        } else if (job->leaf[job->list[i]].is_due &&
+                   job->alive + 7 * job->question->symmetries.count <= job->question->most_boxes) {
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
@@ -266,7 +285,7 @@ static uint32_t keep_unknown(pir_rigid_job *job, uint32_t *kept) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < job->listed; i++) {
         const pir_rigid_leaf *leaf = &job->leaf[job->list[i]];
-        if (!leaf->is_full && leaf->asks == 0)
+        if (!leaf->is_full && asks_of(job, job->list[i]) == 0)
             kept[count++] = job->list[i];
     }
     return count;

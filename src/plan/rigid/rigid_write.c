@@ -2,7 +2,8 @@
 /*
  * The question, and for each box of rotations its inner sums and the tree of its division. Divisions are made again,
  * and are the same: that is looked at, since the parts that decided may be those of a journal. Threads write the texts
- * of some boxes each, which go into the file in order.
+ * of some boxes each, which go into the file in order. The first box of an orbit stands for all; of the others it is
+ * told which of their parts are of the start's side.
  */
 #include "plan/rigid/rigid_write.h"
 
@@ -30,6 +31,17 @@ struct box_texts {
     struct box_text at[MOST_TEXTS];
 };
 
+/* The signs of each symmetry: three of translations, three of the robot. */
+static void put_symmetries(pir_plan_writer *w, const pir_symmetries *s) {
+    for (uint32_t i = 0; i < s->count; i++) {
+        fputs(i == 0 ? ",\n \"symmetries\": [" : ", ", w->file);
+        for (int k = 0; k < 6; k++)
+            fprintf(w->file, "%s%d", k > 0 ? ", " : "[", s->signs[i] >> k & 1 ? -1 : 1);
+        fputs("]", w->file);
+    }
+    fputs("]", w->file);
+}
+
 static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
     const struct {
         const char *name;
@@ -50,6 +62,8 @@ static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
     }
     pir_plan_put_pieces(w, "robot", q->robot);
     pir_plan_put_pieces(w, "obstacles", q->wide);
+    if (q->symmetries.count > 1)
+        put_symmetries(w, &q->symmetries);
 }
 
 /* Whether a division has the parts that a leaf has, bit for bit. */
@@ -69,6 +83,24 @@ static pir_status check_parts(const pir_box_division *division, const pir_box_pa
     return status;
 }
 
+/* For each image of a box but itself, a letter for each node of the tree: s or o for the side of a free part. */
+static void put_sides(const struct box_texts *texts, uint32_t first, pir_plan_writer *w) {
+    const pir_rigid_job *job = texts->job;
+    const pir_box_cell *cell = job->leaf[first].inner.cell;
+    const uint32_t size = job->question->symmetries.count;
+    for (uint32_t e = 1; e < size; e++) {
+        fputs(e == 1 ? ",\n \"sides\": [\"" : "\", \"", w->file);
+        for (uint32_t i = 0; i < w->tree->node_count; i++) {
+            const pir_plan_node *node = &w->tree->node[i];
+            const bool is_free = node->part == PIR_PLAN_FREE;
+            const bool is_start = is_free && job->root[job->leaf[first ^ e].node + cell[node->by].part] == w->start;
+            fputc(is_start ? 's' : is_free ? 'o' : '.', w->file);
+        }
+    }
+    if (size > 1)
+        fputs("\"]", w->file);
+}
+
 static void put_division(const pir_rotation_box box, const pir_plan_pieces *sums, pir_plan_writer *w) {
     int32_t low[4], high[4];
     pir_rotation_box_bounds(box, low, high);
@@ -78,12 +110,12 @@ static void put_division(const pir_rotation_box box, const pir_plan_pieces *sums
     fputs("]", w->file);
     pir_plan_put_pieces(w, "sums", sums);
     pir_plan_put_tree(w);
-    fputs("}", w->file);
 }
 
 /* One box: the root of each of its cells is that of the node that its part is. */
-static pir_status put_box(const struct box_texts *texts, const pir_rigid_leaf *leaf, FILE *file) {
+static pir_status put_box(const struct box_texts *texts, uint32_t first, FILE *file) {
     const pir_rigid_job *job = texts->job;
+    const pir_rigid_leaf *leaf = &job->leaf[first];
     const pir_plan_turns corners = pir_rotation_box_corners(leaf->box);
     pir_box_division division;
     pir_plan_pieces sums;
@@ -106,6 +138,8 @@ static pir_status put_box(const struct box_texts *texts, const pir_rigid_leaf *l
             root[i] = job->root[leaf->node + leaf->inner.cell[i].part];
         mpq_init(w.x);
         put_division(leaf->box, &sums, &w);
+        put_sides(texts, first, &w);
+        fputs("}", file);
         mpq_clear(w.x);
     }
     free(corner);
@@ -119,7 +153,7 @@ static pir_status make_text(void *data, uint32_t index) {
     struct box_texts *texts = data;
     struct box_text *own = &texts->at[index];
     FILE *file = open_memstream(&own->text, &own->size);
-    own->status = file ? put_box(texts, &texts->job->leaf[own->leaf], file) : PIR_ERR_MEMORY;
+    own->status = file ? put_box(texts, own->leaf, file) : PIR_ERR_MEMORY;
     if (file && (ferror(file) | fclose(file)) != 0 && own->status == PIR_OK)
         own->status = PIR_ERR_MEMORY;
     return own->status;
@@ -148,7 +182,7 @@ static bool take_text(void *data, uint32_t index, pir_status status, const pir_b
 static bool tell_texts(void *data, uint32_t done) {
     struct box_texts *texts = data;
     const pir_rigid_question *q = texts->job->question;
-    texts->written += done;
+    texts->written += done * q->symmetries.count;
     return !q->progress || q->progress(q->context, texts->job->alive, texts->written);
 }
 
@@ -157,7 +191,7 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
     const pir_rigid_job *job = texts->job;
     const bool is_first = *leaf == 0;
     uint32_t count = 0;
-    for (; *leaf < job->leaves && count < MOST_TEXTS; ++*leaf)
+    for (; *leaf < job->leaves && count < MOST_TEXTS; *leaf += job->question->symmetries.count)
         if (!job->leaf[*leaf].is_divided)
             texts->at[count++] = (struct box_text){.leaf = *leaf};
     const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text, tell_texts};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* See rotation_box.h. */
-#include "plan/rigid/rotation_box.h"
+#include "plan/rotations/rotation_box.h"
 
 #include <math.h>
 #include <stdlib.h>

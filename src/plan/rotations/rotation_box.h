@@ -9,8 +9,8 @@
  *
  * From level 1 on a box is within an octant of its chart, so two quaternions of it have a product of 1 at least.
  */
-#ifndef PIR_PLAN_RIGID_ROTATION_BOX_H
-#define PIR_PLAN_RIGID_ROTATION_BOX_H
+#ifndef PIR_PLAN_ROTATIONS_ROTATION_BOX_H
+#define PIR_PLAN_ROTATIONS_ROTATION_BOX_H
 
 #include "plan/turn_bodies.h"
 
