@@ -4,8 +4,8 @@
 
 Usage: motions.py FILE   the pieces in FILE are taken as the bodies, which are closed
 
-Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on plan.py and turns.py beside
-it.
+Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on meets.py, which says when two
+pieces meet throughout a box, turns.py, plan.py and cells.py beside it.
 
 The argument: boxes cover all rotations. Each box has sums, of a piece P of the robot and a piece O of the obstacles
 each: polytopes of translations at which P meets O at every rotation of the box, so they are blocked. The tree of the
@@ -19,55 +19,18 @@ leaves the robot, of the same determinant. R v + x is in the robot's place at (R
 (D R E, D x). So what is blocked throughout a box is so, after D, throughout its image, of quaternions d q e: then
 only one box is told with sums, and of its images on which side each free part is. They are a group, i after k being
 i ^ k, so that images of two boxes meet as these do: it is enough to hold each box against all images of all.
-
-A box is four intervals, in 2^-20, of quaternions x, y, z, w, of which one is 1 alone: a quaternion divided by its
-largest component is in one, or its negative is. A box is the hull of its corners q. With B(p, q)v the polar form of
-|q|^2 R(q)v, and q = sum of a_i q_i, |q|^2 R(q)v is the sum of a_i a_k B(q_i, q_k)v, and |q|^2 that of a_i a_k q_i.q_k,
-with a_i >= 0. So what is linear in R(q)v is at most 0 in the box where it is so for B(q_i, q_k)v / (q_i.q_k) of all
-pairs of corners.
-
-P at x meets O where x is in S(q) = O - R(q)P. Half-spaces of S are those with normals N of facets of O, of facets of
--R(q)P, and e x R(q)f for edges e of O and f of P, in both directions. It is in one where N.(x - o + R(q)p) <= 0 for
-some o in O and p in P. The last ones count only where N is between the normals of both facets at e, and of both at f.
-So they hold as well where both half-spaces of O at e do with one p (the same o on e serves both), or both of P at f
-with one o. And where all half-spaces of P do with one o, that is in P throughout.
 """
 import sys
-from fractions import Fraction
+from bisect import bisect_right
 from itertools import combinations_with_replacement, product
-from math import gcd, lcm
+from math import lcm
 
 import turns
-from plan import Cell, Piece, Plan, cross, dot, need, sub, vector
+from cells import Cell, integers
+from meets import Pair, Turned, Whole, form
+from plan import Piece, Plan, cross, dot, need, sub, vector
 
 ONE = 1 << 20
-
-
-class Whole:
-    """A convex polytope in integers, a piece times a number: points, facets (n, d), edges with facets beside."""
-
-    def __init__(self, piece, scale):
-        self.points = [tuple(int(scale * x) for x in p) for p in piece.points]
-        first = [[self.points[i] for i in facet[:3]] for facet in piece.facets]
-        normals = [reduced(cross(sub(b, a), sub(c, a))) for a, b, c in first]
-        self.planes = [(n, dot(n, facet[0])) for n, facet in zip(normals, first)]
-        beside = {side: i for i, f in enumerate(piece.facets) for side in zip(f, f[1:] + f[:1])}
-        self.edges = [(self.points[a], sub(self.points[b], self.points[a]), (i, beside[b, a]))
-                      for (a, b), i in beside.items() if a < b]
-
-
-def reduced(n):
-    most = gcd(*n)
-    return tuple(x // most for x in n)
-
-
-def form(p, q, v):
-    """B(p, q)v = (p v q* + q v p*) / 2 for quaternions x, y, z, w."""
-    a, b, s, t = p[:3], q[:3], p[3], q[3]
-    of_b, of_a = dot(b, v), dot(a, v)
-    mixed = [s * y + t * x for x, y in zip(a, b)]
-    over, level = cross(mixed, v), s * t - dot(a, b)
-    return tuple(level * v[k] + over[k] + of_b * a[k] + of_a * b[k] for k in range(3))
 
 
 def multiplied(p, q):
@@ -97,8 +60,8 @@ class Symmetry:
 
     def cell(self, cell):
         """The image of a part."""
-        return Cell([(signed(self.places, p), on) for p, on in cell.vertices],
-                    [(signed(self.places, n), d) for n, d in cell.planes])
+        return Cell([((*signed(self.places, p), p[3]), on) for p, on in cell.vertices],
+                    [(*signed(self.places, n), n[3]) for n in cell.planes])
 
     def box(self, bounds):
         """The image of a box: components are exchanged, and change signs, such that the one of its chart is 1."""
@@ -108,65 +71,8 @@ class Symmetry:
 
 
 def are_apart(a, b):
-    """Whether a box or a plane of one has the other beyond it: what most cells tell at once."""
-    return (any(a.high[k] < b.low[k] or b.high[k] < a.low[k] for k in range(3)) or
-            any(all(dot(n, p) > d for p, _ in other.vertices) for own, other in ((a, b), (b, a))
-                for n, d in own.planes))
-
-
-class Pair:
-    """A piece of the robot and one of the obstacles over a box; an o for a point x is told as (m (x - o), m), m > 0."""
-
-    def __init__(self, robot, obstacle, forms):
-        self.robot, self.obstacle, self.forms, self.most = robot, obstacle, forms, {}
-        self.back = [[tuple(-y for y in form(p, q, n)) for p, q, _ in forms] for n, _ in robot.planes]
-        count = len(robot.points)
-        self.within = robot.points + [tuple(Fraction(sum(c), count) for c in zip(*robot.points))]
-        self.within += [tuple(y + Fraction(z, 2) for y, z in zip(a, way)) for a, way, _ in robot.edges]
-
-    def stays(self, facet, i, x):
-        """Whether a point of the robot is in the half-space of a facet of the obstacle throughout."""
-        n, d = self.obstacle.planes[facet]
-        if (facet, i) not in self.most:
-            self.most[facet, i] = max(Fraction(dot(n, form(p, q, self.within[i]))) / w for p, q, w in self.forms)
-        return dot(n, x) + self.most[facet, i] <= d
-
-    def covers(self, facet, o):
-        """Whether o is in the half-space of a facet of the robot throughout."""
-        (way, m), d = o, self.robot.planes[facet][1]
-        return all(dot(n, way) <= w * d * m for n, (_, _, w) in zip(self.back[facet], self.forms))
-
-    def crosses(self, e, f, o, p):
-        """Whether N of two edges serves with o and p."""
-        (way, m), of_p = o, cross(f, p)
-        return all(dot(cross(e, form(a, b, f)), way) + m * dot(e, form(a, b, of_p)) <= 0 for a, b, _ in self.forms)
-
-    def check(self, x):
-        """The pieces meet at x throughout."""
-        points, ways = range(len(self.within)), [(sub(x, o), 1) for o in self.obstacle.points]
-        for a, way, _ in self.obstacle.edges:
-            size, part = dot(way, way), dot(sub(x, a), way)
-            if 0 < part < size:  # the nearest point of the edge
-                ways.append((tuple(size * (y - z) - part * v for y, z, v in zip(x, a, way)), size))
-        for n, d in self.obstacle.planes:
-            size, above = dot(n, n), dot(n, x) - d
-            at = tuple(size * y - above * z for y, z in zip(x, n))  # the nearest point of the plane, times size
-            if all(dot(m, at) <= size * most for m, most in self.obstacle.planes):
-                ways.append((tuple(above * z for z in n), size))
-        ways.reverse()
-        if any(all(self.covers(f, o) for f in range(len(self.robot.planes))) for o in ways):
-            return
-        for facets, some, holds in ((range(len(self.obstacle.planes)), points, lambda f, i: self.stays(f, i, x)),
-                                    (range(len(self.robot.planes)), ways, self.covers)):
-            need(all(any(holds(f, i) for i in some) for f in facets), "a sum has a point where pieces may be apart")
-        open_e = [edge for edge in self.obstacle.edges
-                  if not any(all(self.stays(f, i, x) for f in edge[2]) for i in points)]
-        open_f = [edge for edge in self.robot.edges if not any(all(self.covers(f, o) for f in edge[2]) for o in ways)]
-        for a, e, _ in open_e:
-            for b, f, _ in open_f:
-                tries = [((sub(x, a), 1), b)] + [(o, p) for o in ways for p in self.robot.points]
-                for way in (e, sub((0, 0, 0), e)):
-                    need(any(self.crosses(way, f, o, p) for o, p in tries), "a point of a sum is outside at an edge")
+    """Whether a plane of one has the other beyond it: what most cells tell at once."""
+    return any(min(other.sides(plane)) > 0 for own, other in ((a, b), (b, a)) for plane in own.planes)
 
 
 class Box(turns.Arc):
@@ -179,19 +85,19 @@ class Box(turns.Arc):
         need((ONE, ONE) in self.bounds, "a box is in no chart")
         corners = sorted(set(product(*self.bounds)))
         pairs = list(combinations_with_replacement(corners, 2))
-        forms = [(p, q, sum(a * b for a, b in zip(p, q))) for p, q in pairs]
-        need(all(w > 0 for _, _, w in forms), "a box is too wide")
+        axes = (1, 0, 0), (0, 1, 0), (0, 0, 1)
+        forms = [(tuple(zip(*(form(p, q, axis) for axis in axes))), sum(a * b for a, b in zip(p, q))) for p, q in pairs]
+        need(all(w > 0 for _, w in forms), "a box is too wide")
+        turned = [Turned(piece, forms) for piece in whole.robot]
         self.sums = {}
         for piece in told["sums"]:
-            own = Piece([vector(p) for p in piece["points"]], piece["facets"])
+            own = Piece(whole.points(piece), piece["facets"])
             k, l = divmod(piece["body"], len(whole.obstacles))
             need(0 <= k < len(whole.robot), "no such piece of the robot")
-            bodies = own, whole.robot[k], whole.obstacles[l]
-            scale = lcm(*(x.denominator for body in bodies for p in body.points for x in p))
-            pair = Pair(Whole(whole.robot[k], scale), Whole(whole.obstacles[l], scale), forms)
+            pair = Pair(turned[k], whole.obstacles[l])
             for p in own.points:
-                pair.check(tuple(int(scale * x) for x in p))
-            self.sums[k, l] = own.planes
+                pair.check(p)
+            self.sums[k, l] = [integers((*(whole.scale * x for x in n), -d)) for n, d in own.planes]
         self.images = [symmetry.box(self.bounds) for symmetry in whole.symmetries]
         need(self.images[0] == self.bounds, "the first symmetry is to be none")
         sides = told.get("sides", [])
@@ -199,12 +105,13 @@ class Box(turns.Arc):
              "sides are to be told for each image")
         self.parts = [(cell, side[0] + "".join(text[cell.node] for text in sides))  # a letter for each image
                       for side, cells in self.walk(whole).items() for cell in cells]
+        self.shown = {}
 
     def check_blocked(self, cell, node, part):
         """A sum has the part."""
         need((part[1], part[2]) in self.sums, "no such sum")
-        need(all(dot(n, p) <= d for n, d in self.sums[part[1], part[2]] for p, _ in cell.vertices),
-             f"part {node}: not within the sum")
+        need(all(plane in cell.planes or max(cell.sides(plane), default=0) <= 0
+                 for plane in self.sums[part[1], part[2]]), f"part {node}: not within the sum")
 
     def sides_at(self, whole, at, turn):
         """The sides of the parts that have a place, of all images."""
@@ -213,13 +120,25 @@ class Box(turns.Arc):
             if most != 0 and all(low <= ONE * x / most <= high for x, (low, high) in zip(turn, bounds)):
                 yield from (sides[i] for cell, sides in self.parts if cell.has(signed(symmetry.places, at)))
 
+    def image(self, whole, image):
+        """Its parts after a symmetry, from low to high along an axis, and how low each is."""
+        if image not in self.shown:
+            parts = [(whole.symmetries[image].cell(cell), "".join(sides[i ^ image] for i in range(len(sides))))
+                     for cell, sides in self.parts]
+            parts.sort(key=lambda part: part[0].bounds[whole.along])
+            self.shown[image] = parts, [cell.bounds[whole.along][0] for cell, _ in parts]
+        return self.shown[image]
+
     def check_apart(self, other, whole, image, fewest):
         """Parts of the box do not meet those of an image of another where sides are different, in any image of both."""
-        shown = [(whole.symmetries[image].cell(cell), "".join(sides[i ^ image] for i in range(len(sides))))
-                 for cell, sides in other.parts]
+        parts, lows = other.image(whole, image)
         for a, own in self.parts:
-            for b, sides in shown:
-                need(own == sides or are_apart(a, b) or a.shared(b) < fewest, "parts of different sides meet")
+            (west, east), (south, north), (low, high) = a.bounds
+            for b, sides in parts[:bisect_right(lows, a.bounds[whole.along][1])]:
+                if own != sides:
+                    (w, e), (s, n), (l, h) = b.bounds
+                    need(w > east or west > e or s > north or south > n or l > high or low > h or are_apart(a, b) or
+                         a.shared(b) < fewest, "parts of different sides meet")
 
     def touches(self, bounds):
         return any(all(a[0] <= b[1] and b[0] <= a[1] for a, b in zip(self.bounds, other))
@@ -231,14 +150,23 @@ class Motions(Plan):
         need(told.get("motions") == 1, "not a proof of version 1")
         self.low, self.high = vector(told["low"]), vector(told["high"])
         need(all(a < b for a, b in zip(self.low, self.high)), "an empty box")
-        self.robot, self.obstacles = ([Piece([vector(p) for p in piece["points"]], piece["facets"])
-                                       for piece in told[name]] for name in ("robot", "obstacles"))
+        bodies = [told[name] for name in ("robot", "obstacles")]
+        pieces = [piece for some in bodies + [box["sums"] for box in told["boxes"]] for piece in some]
+        # all points are integers on this scale, and so are means of any two, and of all points of a piece of the robot
+        self.scale = lcm(*{x.denominator for piece in pieces for p in piece["points"] for x in vector(p)})
+        self.scale *= lcm(2, *(len(piece["points"]) for piece in told["robot"]))
+        self.robot, self.obstacles = ([Whole(self.points(piece), piece["facets"]) for piece in some] for some in bodies)
         self.places = [(vector(told[name]), vector(told[name + "_rotation"], 4)) for name in ("from", "to")]
         need(all(any(turn) for _, turn in self.places), "a quaternion is zero")
+        way = sub(self.places[1][0], self.places[0][0])
+        self.along = max(range(3), key=lambda k: abs(way[k]))  # where most parts of different sides are apart
         self.symmetries = [Symmetry(self, signs) for signs in told.get("symmetries", [[1] * 6])]
         for (i, a), (k, b) in product(enumerate(self.symmetries), repeat=2):
             need(list(signed(a.signs, b.signs)) == self.symmetries[i ^ k].signs, "symmetries are not in order")
         self.boxes = [Box(self, box) for box in told["boxes"]]
+
+    def points(self, piece):
+        return [tuple(int(self.scale * x) for x in vector(p)) for p in piece["points"]]
 
     def check_cover(self):
         """The boxes of each chart are what halvings of it leave."""

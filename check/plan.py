@@ -5,14 +5,16 @@
 Usage: plan.py FILE ROBOT... OBSTACLE...   each solid in OFF, in the order of the command
        plan.py FILE                        the pieces in FILE are taken as the bodies
 
-Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. docs/plan.md has the format and the
-argument: a path is proven by each motion's missing each sum of pieces; that there is none, by parts of the box that
-sums block and others of two sides that do not meet.
+Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on cells.py beside it.
+docs/plan.md has the format and the argument: a path is proven by each motion's missing each sum of pieces; that there
+is none, by parts of the box that sums block and others of two sides that do not meet.
 """
 import json
 import sys
 from fractions import Fraction
 from itertools import combinations
+
+from cells import Cell, above, integers
 
 
 class Refused(ValueError):
@@ -41,10 +43,10 @@ def vector(texts, count=3):
     return tuple(Fraction(text) for text in texts)
 
 
-def unscaled(n):
-    """The direction of a vector other than 0, the same for all its multiples by positive numbers."""
-    most = max(abs(x) for x in n)
-    return tuple(x / most for x in n)
+def half_space(texts):
+    """a x + b y + c z <= d as (a, b, c, -d)."""
+    a, b, c, d = vector(texts, 4)
+    return integers((a, b, c, -d))
 
 
 def turned(q, v):
@@ -73,8 +75,8 @@ class Piece:
         sides = [side for f in facets for side in zip(f, f[1:] + f[:1])]
         need(sides and len(set(sides)) == len(sides) and {(k, i) for i, k in sides} == set(sides),
              "the surface of a piece is not closed")
-        self.edges = {unscaled(sub(points[k], points[i])) for i, k in sides}
-        self.middle = tuple(sum(p[k] for p in points) / len(points) for k in range(3))
+        self.edges = {integers(sub(points[k], points[i])) for i, k in sides}
+        self.middle = tuple(Fraction(sum(p[k] for p in points), len(points)) for k in range(3))
 
     def opposite(self, q):
         """−R·P, whose facets walk the other way round."""
@@ -83,8 +85,8 @@ class Piece:
     def planes_of_sum(self, other):
         """Half-spaces whose intersection is P + Q: normals of facets and of pairs of edges have all facets."""
         crossed = [cross(a, b) for a in self.edges for b in other.edges]
-        normals = {unscaled(n) for n in [n for n, _ in self.planes + other.planes] + crossed if any(n)}
-        return [(n, sum(max(dot(n, p) for p in piece.points) for piece in (self, other))) for n in normals]
+        normals = {integers(n) for n in [n for n, _ in self.planes + other.planes] + crossed if any(n)}
+        return [integers((*n, -sum(max(dot(n, p) for p in piece.points) for piece in (self, other)))) for n in normals]
 
 
 class Model:
@@ -140,50 +142,10 @@ class Model:
             need(self.has(piece.middle), f"{self.path}: a piece is outside")
         for a, b in combinations(pieces, 2):
             planes = a.planes_of_sum(b.opposite((0, 0, 0, 1)))
-            need(any(d <= 0 for _, d in planes), f"{self.path}: pieces overlap")
+            need(any(plane[3] >= 0 for plane in planes), f"{self.path}: pieces overlap")
         sizes = [sum(dot(f[0], cross(b, c)) for f in facets for b, c in zip(f[1:], f[2:]))
                  for facets in [self.facets] + [[[p.points[i] for i in f] for f in p.facets] for p in pieces]]
         need(sizes[0] == sum(sizes[1:]), f"{self.path}: the pieces are not all of it")
-
-
-class Cell:
-    """A convex polytope: vertices, each a point with the bits of the planes that it is on, and planes (n, d)."""
-
-    def __init__(self, vertices, planes):
-        self.vertices, self.planes = vertices, planes
-        self.low, self.high = ([f((v[0][k] for v in vertices), default=0) for k in range(3)] for f in (min, max))
-
-    @staticmethod
-    def box(low, high):
-        axes = [tuple(Fraction(i == k) for i in range(3)) for k in range(3)]
-        planes = [(tuple(-x for x in axes[k]), -low[k]) for k in range(3)] + [(axes[k], high[k]) for k in range(3)]
-        return Cell([(tuple(high[k] if v >> k & 1 else low[k] for k in range(3)),
-                      sum(1 << (k + 3 * (v >> k & 1)) for k in range(3))) for v in range(8)], planes)
-
-    def cut(self, n, d):
-        """The part with n·x <= d; two vertices are the ends of an edge where no third is on all planes of both."""
-        bit, side = 1 << len(self.planes), [dot(n, p) - d for p, _ in self.vertices]
-        out = [(p, bits | bit if s == 0 else bits) for (p, bits), s in zip(self.vertices, side) if s <= 0]
-        for (a, on_a), u in zip(self.vertices, side):
-            for (b, on_b), v in zip(self.vertices, side) if u < 0 else ():
-                both = on_a & on_b
-                if v > 0 and sum(on & both == both for _, on in self.vertices) == 2:
-                    out.append((tuple(a[k] + (b[k] - a[k]) * u / (u - v) for k in range(3)), both | bit))
-        used = [j for j in range(len(self.planes) + 1) if any(on >> j & 1 for _, on in out)]
-        packed = [(p, sum((on >> j & 1) << i for i, j in enumerate(used))) for p, on in out]
-        return Cell(packed, [(self.planes + [(n, d)])[j] for j in used])
-
-    def has(self, p):
-        return bool(self.vertices) and all(dot(n, p) <= d for n, d in self.planes)
-
-    def shared(self, other):
-        """How many vertices the intersection of two cells has."""
-        if any(self.high[k] < other.low[k] or other.high[k] < self.low[k] for k in range(3)):
-            return 0
-        for n, d in other.planes:
-            if any(dot(n, p) > d for p, _ in self.vertices):
-                self = self.cut(n, d)
-        return len(self.vertices)
 
 
 class Plan:
@@ -206,8 +168,8 @@ class Plan:
     def is_blocked(self, planes, a, b):
         """Whether a segment meets a sum, its inside where bodies are open."""
         low, high = Fraction(0), Fraction(1)
-        for n, d in planes:
-            u, v = dot(n, a) - d, dot(n, b) - d
+        for plane in planes:
+            u, v = above(plane, a), above(plane, b)
             if min(u, v) > 0 or (self.open and min(u, v) == 0):
                 return False
             if u > 0:
@@ -231,26 +193,26 @@ class Plan:
         """Without bounds, the box has all sums and both ends within it, so that what is round it is free."""
         need(all(a < b for a, b in zip(self.low, self.high)), "the box is empty")
         whole = Cell.box(self.low, self.high)
-        for n, d in whole.planes:
-            most = sum(max(dot(n, p) for piece in body for p in piece.points)
+        for plane in whole.planes:
+            most = sum(max(dot(plane, p) for piece in body for p in piece.points)
                        for body in (self.opposite, self.pieces[1]))
-            need(self.told["bounded"] or most < d, "the box is too small")
+            need(self.told["bounded"] or most + plane[3] < 0, "the box is too small")
         need(all(whole.has(p) for p in self.ends), "an end is outside of the box")
         return whole
 
     def check_blocked(self, cell, node, part):
         """A sum has the part. With open bodies its faces on the sum's planes are parts of their own."""
         planes, faces = self.sum(part[1], part[2]), []
-        need(all(dot(n, p) <= d for n, d in planes for p, _ in cell.vertices), f"part {node}: not within the sum")
+        need(all(max(cell.sides(plane), default=0) <= 0 for plane in planes), f"part {node}: not within the sum")
         for told, child in part[3:]:
-            n, d = vector(told[:3]), Fraction(told[3])
-            need(all(dot(n, p) <= d for p, _ in cell.vertices), f"part {node}: a face that is none")
-            faces.append(({i for i, (p, _) in enumerate(cell.vertices) if dot(n, p) == d}, child, n, d))
-        for n, d in planes if self.open else ():
-            on = {i for i, (p, _) in enumerate(cell.vertices) if dot(n, p) == d}
+            plane = half_space(told)
+            need(max(cell.sides(plane), default=0) <= 0, f"part {node}: a face that is none")
+            faces.append(({i for i, side in enumerate(cell.sides(plane)) if side == 0}, child, plane))
+        for plane in planes if self.open else ():
+            on = {i for i, side in enumerate(cell.sides(plane)) if side == 0}
             need(len(on) < len(cell.vertices), f"part {node}: on the sum's boundary")
             need(not on or any(on <= face[0] for face in faces), f"part {node}: a face is not looked at")
-        return [(child, cell.cut(n, d).cut(tuple(-x for x in n), -d)) for _, child, n, d in faces]
+        return [(child, cell.split(plane)[1]) for _, child, plane in faces]
 
     def check_tree(self):
         tree, leaves = self.told["tree"], {"start": [], "other": []}
@@ -261,13 +223,12 @@ class Plan:
             need(all(node < i for i in (part[2:] if part[0] == "split" else [f[1] for f in part[3:]])),
                  f"part {node}: parts are to come after the ones that they are of")
             if part[0] == "split":
-                n, d = vector(part[1][:3]), Fraction(part[1][3])
-                todo.append((part[2], cell.cut(n, d)))
-                todo.append((part[3], cell.cut(tuple(-x for x in n), -d)))
+                need(len(part) == 4, f"part {node}: two parts are wanted")
+                todo += zip(part[2:], cell.split(half_space(part[1])))
             elif part[0] == "blocked":
                 todo += self.check_blocked(cell, node, part)
             else:
-                leaves[part[0]].append((node, cell))
+                leaves[part[0]].append((node, cell.packed()))
         for name, end in zip(("start", "other"), self.ends):
             sides = {side for side in leaves for _, cell in leaves[side] if cell.has(end)}
             need(sides == {name}, f"an end is not in parts of side {name} alone")

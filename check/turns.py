@@ -4,7 +4,8 @@
 
 Usage: turns.py FILE   the pieces in FILE are taken as the bodies, which are closed
 
-Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on plan.py beside it alone.
+Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on plan.py and cells.py
+beside it.
 
 The argument: arcs of angles, each beginning where the one before ends, make one full turn. At every angle of an arc the
 robot has the arc's inner pieces, so translations that their sums with obstacles block are blocked. The tree of the arc
@@ -18,9 +19,9 @@ these three leave what is in the half-space of n at every angle.
 """
 import json
 import sys
-from fractions import Fraction
 
-from plan import Cell, Piece, Plan, Refused, dot, need, turned, vector
+from cells import Cell
+from plan import Piece, Plan, Refused, dot, half_space, need, turned, vector
 
 
 def before(a, b):
@@ -69,16 +70,15 @@ class Arc(Plan):
             node, cell = todo.pop()
             part = tree[node]
             if part[0] == "split":
-                n, d = vector(part[1][:3]), Fraction(part[1][3])
-                need(min(part[2:]) > node, f"part {node}: parts are to come after the ones that they are of")
-                todo.append((part[2], cell.cut(n, d)))
-                todo.append((part[3], cell.cut(tuple(-x for x in n), -d)))
+                need(len(part) == 4 and min(part[2:]) > node,
+                     f"part {node}: parts are to come after the ones that they are of")
+                todo += zip(part[2:], cell.split(half_space(part[1])))
             elif part[0] == "blocked":
                 need(len(part) == 3, f"part {node}: faces of blocked parts count for open bodies alone")
                 self.check_blocked(cell, node, part)
             else:
-                cell.node = node
-                leaves[part[0]].append(cell)
+                leaves[part[0]].append(cell.packed())
+                leaves[part[0]][-1].node = node
         return leaves
 
     def check_apart(self, other, fewest):

@@ -480,7 +480,10 @@ static void test_bad(void **state) {
     release_gate(&g);
 }
 
-/* With the name of a file: writes a proof for check/motions.py, of a tetrahedron or of a box. */
+/*
+ * With the name of a file: writes a proof for check/motions.py, of a box, or of a tetrahedron, where boxes are divided
+ * or have all their sums.
+ */
 static int write_proof(const char *path, bool is_box) {
     struct gate g;
     pir_rigid_plan_info info;
@@ -491,8 +494,8 @@ static int write_proof(const char *path, bool is_box) {
         g.robot = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape);
     else
         g.robot = make_tetrahedron(16, false, &g.shape);
-    make_wall(2, 2, 17, &g);
-    const bool is_good = ask(&g, 144, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
+    make_wall(is_box ? 2 : 3.8, is_box ? 2 : 3.8, 17, &g);
+    const bool is_good = ask(&g, 400, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
     release_gate(&g);
     return fclose(file) != 0 || !is_good;
 }
@@ -500,11 +503,11 @@ static int write_proof(const char *path, bool is_box) {
 int main(int count, char **words) {
     if (count > 1)
         return write_proof(words[1], count > 2);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),   cmocka_unit_test(test_window),
-        cmocka_unit_test(test_tight),        cmocka_unit_test(test_gates),  cmocka_unit_test(test_budget),
-        cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),    cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_symmetric)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),
+                                       cmocka_unit_test(test_window),       cmocka_unit_test(test_tight),
+                                       cmocka_unit_test(test_gates),        cmocka_unit_test(test_budget),
+                                       cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),
+                                       cmocka_unit_test(test_progress),     cmocka_unit_test(test_symmetric)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);
