@@ -55,17 +55,20 @@ static pir_status fail(const pir_block_journal *journal, const char *what) {
 
 /* --- what is there --- */
 
-/* Reads the block at a place, if that is whole; its header in any case. */
-static bool read_block(const pir_block_journal *journal, uint64_t at, uint64_t end, struct block_header *header,
-                       pir_bytes *block) {
+/* Reads the block at a place and its header: PIR_ERR_FORMAT where none is whole. */
+static pir_status read_block(const pir_block_journal *journal, uint64_t at, uint64_t end, struct block_header *header,
+                             pir_bytes *block) {
     const pir_allocator a = pir_allocator_or_default(NULL);
     block->used = 0;
     if (at + sizeof *header > end || pir_read_at(journal->descriptor, header, sizeof *header, at) != PIR_OK ||
-        header->size > end - at - sizeof *header || !pir_bytes_reserve(block, &a, header->size))
-        return false;
+        header->size > end - at - sizeof *header)
+        return PIR_ERR_FORMAT;
+    if (!pir_bytes_reserve(block, &a, header->size))
+        return PIR_ERR_MEMORY;
     block->used = header->size;
-    return pir_read_at(journal->descriptor, block->data, header->size, at + sizeof *header) == PIR_OK &&
-           header->hash == hash_of(header, at, block->data);
+    const bool is_whole = pir_read_at(journal->descriptor, block->data, header->size, at + sizeof *header) == PIR_OK &&
+                          header->hash == hash_of(header, at, block->data);
+    return is_whole ? PIR_OK : PIR_ERR_FORMAT;
 }
 
 static bool note(pir_block_journal *journal, uint64_t number, uint64_t at) {
@@ -91,13 +94,17 @@ static pir_status scan(pir_block_journal *journal, uint64_t size) {
     const pir_allocator a = pir_allocator_or_default(NULL);
     struct block_header header;
     pir_bytes block = {0};
-    bool noted = true;
-    while (noted && read_block(journal, journal->end, size, &header, &block)) {
-        noted = note(journal, header.number, journal->end);
+    pir_status status;
+    while ((status = read_block(journal, journal->end, size, &header, &block)) == PIR_OK) {
+        if (!note(journal, header.number, journal->end)) {
+            status = PIR_ERR_MEMORY;
+            break;
+        }
         journal->end += sizeof header + header.size;
     }
     pir_bytes_finish(&block, &a);
-    if (!noted)
+    // blocks that were not read may be whole
+    if (status == PIR_ERR_MEMORY)
         return pir_fail(journal->report, PIR_ERR_MEMORY, "%s: out of memory", pir_short_name(journal->path));
     if (journal->places > 0)
         qsort(journal->place, journal->places, sizeof *journal->place, compare);
@@ -109,7 +116,8 @@ bool pir_block_journal_find(const pir_block_journal *journal, uint64_t number, p
     struct block_header header;
     if (journal->places > 0)
         place = bsearch(&key, journal->place, journal->places, sizeof key, compare);
-    return place && read_block(journal, place->at, journal->end, &header, ret_block) && header.number == number;
+    return place && read_block(journal, place->at, journal->end, &header, ret_block) == PIR_OK &&
+           header.number == number;
 }
 
 /* --- beginning and end --- */

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Plans by any motion where memory runs out at the n-th request: the call says so, or gives the answer that it gives
+ * with plenty; its journal keeps all that it had, and a call that goes on with it writes the same proof. The linker
+ * gives __wrap_X the calls of X that the library makes; GMP's numbers are not among them.
+ *
+ * Without PIR_TEST_CASES, some n; with it, that many for each question, evenly.
+ */
+#include "support/test.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <pirouette/pirouette.h>
+
+/* Requests so far, the one that fails, 0 for none, and the last one for a name, which is that of the journal. */
+static atomic_ulong requests, failing, naming;
+
+static bool fails(void) {
+    return atomic_fetch_add(&requests, 1) + 1 == atomic_load(&failing);
+}
+
+void *__real_malloc(size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_malloc(size_t size) {
+    return fails() ? NULL : __real_malloc(size);
+}
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size) {
+    return fails() ? NULL : __real_calloc(count, size);
+}
+
+void *__real_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size) {
+    return fails() ? NULL : __real_realloc(block, size);
+}
+
+char *__real_strdup(const char *text);
+char *__wrap_strdup(const char *text);
+char *__wrap_strdup(const char *text) {
+    atomic_store(&naming, atomic_load(&requests) + 1);
+    return fails() ? NULL : __real_strdup(text);
+}
+
+FILE *__real_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size) {
+    return fails() ? NULL : __real_open_memstream(text, size);
+}
+
+/* A tetrahedron before a window of four sides. */
+struct question {
+    pir_solid *robot, *wall[4];
+    pir_rigid_plan_input input;
+    uint32_t boxes;
+    pir_turn_plan_answer answer;
+    char journal[32], *proof; /* the text of a proof where there is no path */
+    size_t proof_size;
+};
+
+static pir_solid *solid_of(const pir_vec3 *p, size_t points, const uint32_t *starts, const uint32_t *corners,
+                           size_t facets) {
+    const pir_solid_facets made = {p, points, starts, corners, facets};
+    pir_solid *solid = NULL;
+    assert_int_equal(pir_solid_create(&made, NULL, NULL, &solid), PIR_OK);
+    return solid;
+}
+
+static pir_solid *make_box(pir_vec3 low, pir_vec3 high) {
+    static const uint32_t sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    static const uint32_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
+    pir_vec3 p[8];
+    for (int i = 0; i < 8; i++)
+        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    return solid_of(p, 8, starts, sides, 6);
+}
+
+/* With half an edge of a cube about the tetrahedron, and half the width of the window. */
+static void make_question(double e, double x, uint32_t boxes, pir_turn_plan_answer answer, struct question *q) {
+    static const uint32_t sides[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, starts[5] = {0, 3, 6, 9, 12};
+    const pir_vec3 corner[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
+    const pir_vec3 low[4] = {{-9, -9, -.5}, {x, -9, -.5}, {-x, -9, -.5}, {-x, x, -.5}},
+                   high[4] = {{-x, 9, .5}, {9, 9, .5}, {x, -x, .5}, {x, 9, .5}};
+    const double way = 2 * e + 1;
+    *q = (struct question){.boxes = boxes, .answer = answer, .journal = "rigid_memory_XXXXXX"};
+    q->robot = solid_of(corner, 4, starts, sides, 4);
+    for (int i = 0; i < 4; i++)
+        q->wall[i] = make_box(low[i], high[i]);
+    q->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)&q->robot,
+                                      .robot_count = 1,
+                                      .obstacles = (const pir_solid *const *)q->wall,
+                                      .obstacle_count = 4,
+                                      .low = {-1, -1, -way - .5},
+                                      .high = {1, 1, way + .5},
+                                      .from = {{0, 0, 0, 1}, {0, 0, -way}},
+                                      .to = {{.3, -.2, .1, -.9}, {0, 0, way}}};
+    const int descriptor = mkstemp(q->journal);
+    assert_true(descriptor >= 0);
+    close(descriptor);
+}
+
+static void release(struct question *q) {
+    for (int i = 0; i < 4; i++)
+        pir_solid_release(q->wall[i]);
+    pir_solid_release(q->robot);
+    unlink(q->journal);
+    free(q->proof);
+}
+
+/* The text of a file. */
+static char *text_of(FILE *file, size_t *ret_size) {
+    fseek(file, 0, SEEK_END);
+    *ret_size = (size_t)ftell(file);
+    char *text = __real_malloc(*ret_size + 1);
+    rewind(file);
+    assert_non_null(text);
+    assert_int_equal(fread(text, 1, *ret_size, file), *ret_size);
+    return text;
+}
+
+/* Asks while request `n` fails; whether the answer was given, which is then the right one. */
+static bool ask(struct question *q, unsigned long n, uint32_t threads, bool resume) {
+    pir_rigid_plan *const before = (pir_rigid_plan *)&before;
+    pir_rigid_plan *plan = before;
+    pir_report report = {0};
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    options.boxes = q->boxes;
+    options.threads = threads;
+    options.proof = tmpfile();
+    options.journal = q->journal;
+    options.resume = resume;
+    options.report = &report;
+    assert_non_null(options.proof);
+    atomic_store(&requests, 0);
+    atomic_store(&failing, n);
+    const pir_status status = pir_rigid_plan_create(&q->input, &options, &plan);
+    atomic_store(&failing, 0);
+    if (status == PIR_OK) {
+        pir_rigid_plan_info info;
+        size_t size;
+        pir_rigid_plan_describe(plan, &info);
+        expect(info.answer == q->answer, "request %lu: answer %d", n, (int)info.answer);
+        char *text = text_of(options.proof, &size);
+        if (q->answer == PIR_TURN_PLAN_NO_PATH && q->proof)
+            expect(size == q->proof_size && memcmp(text, q->proof, size) == 0, "request %lu: another proof", n);
+        free(q->proof);
+        q->proof = text;
+        q->proof_size = size;
+        pir_rigid_plan_destroy(plan);
+    } else {
+        expect(status == PIR_ERR_MEMORY, "request %lu: %s", n, report.text);
+        assert_ptr_equal(plan, before);
+        assert_int_equal(report.status, PIR_ERR_MEMORY);
+        assert_non_null(strstr(report.text, "out of memory"));
+    }
+    fclose(options.proof);
+    return status == PIR_OK;
+}
+
+static long long size_of_journal(const struct question *q) {
+    struct stat file;
+    return stat(q->journal, &file) == 0 ? (long long)file.st_size : -1;
+}
+
+/* Lets request `n` fail in a call, in one that goes on with its journal, and goes on with that. */
+static void try_request(struct question *q, unsigned long n, uint32_t threads, bool goes_on, unsigned *failures) {
+    const bool is_given = ask(q, n, threads, false);
+    *failures += !is_given;
+    if (is_given || !goes_on)
+        return;
+    const long long kept = size_of_journal(q);
+    if (!ask(q, n / 2 + 1, threads, true)) {
+        expect(size_of_journal(q) >= kept, "request %lu: the journal has lost something", n);
+        expect(ask(q, 0, threads, true), "request %lu: the journal is of no use", n);
+    }
+}
+
+/* Requests in the order of their numbers, closer in the beginning, or all that are asked for. */
+static void try_all(struct question *q) {
+    const char *told = getenv("PIR_TEST_CASES");
+    const unsigned long cases = told ? strtoul(told, NULL, 10) : 0;
+    for (uint32_t threads = 1; threads <= 2; threads++) {
+        expect(ask(q, 0, threads, false), "with plenty");
+        const unsigned long all = atomic_load(&requests);
+        const unsigned long step = cases == 0 ? 0 : cases < all ? all / cases : 1;
+        unsigned tries = 0, failures = 0;
+        for (unsigned long n = 1; n <= all; n += step > 0 ? step : threads * n, tries++)
+            try_request(q, n, threads, tries % 8 == 7, &failures);
+        printf("%u threads: %lu requests, %u failures in %u tries\n", threads, all, failures, tries);
+        assert_true(failures > tries / 2);
+    }
+}
+
+/* The first boxes decide. */
+static void test_no_path(void **state) {
+    (void)state;
+    struct question q;
+    make_question(16 / sqrt(3), 1, 32, PIR_TURN_PLAN_NO_PATH, &q);
+    try_all(&q);
+    release(&q);
+}
+
+static void test_path(void **state) {
+    (void)state;
+    struct question q;
+    make_question(.5, 1.5, 32, PIR_TURN_PLAN_PATH, &q);
+    try_all(&q);
+    release(&q);
+}
+
+/* Boxes take all their sums, and are divided, until the budget ends. Then its journal is read, which loses nothing. */
+static void test_unknown(void **state) {
+    (void)state;
+    struct question q;
+    make_question(16 / sqrt(3), 1.9, 60, PIR_TURN_PLAN_UNKNOWN, &q);
+    try_all(&q);
+    assert_true(ask(&q, 0, 1, false));
+    const long long kept = size_of_journal(&q);
+    const unsigned long first = atomic_load(&naming);
+    assert_true(ask(&q, 0, 1, true));
+    const unsigned long all = atomic_load(&requests);
+    for (unsigned long n = first - 1; n < first + 8; n++) {
+        const bool is_given = ask(&q, n, 1, true);
+        expect(size_of_journal(&q) >= kept, "request %lu: the journal has lost something", n);
+        expect(!is_given || atomic_load(&requests) < all + all / 2, "request %lu: boxes are made again", n);
+    }
+    release(&q);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_path), cmocka_unit_test(test_path),
+                                       cmocka_unit_test(test_unknown)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
