@@ -372,6 +372,14 @@ static void print_text(const struct plan_run *run, const pir_path_plan *plan, co
     say("  %-10s %s\n", "time", time);
 }
 
+/* Says why a plan was not made: a file that cannot be written is named. */
+static void complain_of(const struct plan_run *run, pir_status status, struct output_file *file) {
+    FILE *const proof = proof_file(run, file);
+    const bool is_of_page = proof && proof == run->page.proof && ferror(proof);
+    if (!(proof && proof == file->stream && output_failed(file)))
+        complain_status(is_of_page ? "plan: --page" : "plan", status, is_of_page ? NULL : &run->report);
+}
+
 /* Writes the plan with its proof to the file that -o names. */
 static bool write_plan(struct plan_run *run, const pir_path_plan *plan, struct output_file *file) {
     FILE *const proof = proof_file(run, file);
@@ -380,8 +388,7 @@ static bool write_plan(struct plan_run *run, const pir_path_plan *plan, struct o
         pass_on(run, file);
         return !args_has(run->args, "-o") || output_commit(file);
     }
-    if (run->page.proof || !output_failed(file))
-        complain_status(run->page.proof ? "plan: --page" : args_value(run->args, "-o"), status, NULL);
+    complain_of(run, status, file);
     return false;
 }
 
@@ -500,7 +507,7 @@ static int plan_turns(struct plan_run *run, struct output_file *file) {
     const pir_status status = pir_turn_plan_create(&run->turns, &options, &plan);
     run->seconds = (double)(clock_now() - start) / 1e9;
     if (status != PIR_OK) {
-        complain_status("plan", status, &run->report);
+        complain_of(run, status, file);
         return EXIT_BAD_INPUT;
     }
     const int result = tell_turns(run, plan, file);
@@ -666,7 +673,7 @@ static int plan_motions(struct plan_run *run, struct output_file *file) {
     progress_end(&run->bar);
     int result = EXIT_BAD_INPUT;
     if (status != PIR_OK && is_first)
-        complain_status("plan", status, &run->report);
+        complain_of(run, status, file);
     else if (status == PIR_OK)
         result = is_first ? tell_motions(run, plan, file) : EXIT_DONE;
     pir_rigid_plan_destroy(plan);

@@ -179,6 +179,7 @@ class Plan(PlanTest):
         run = subprocess.run([sys.executable, "-B", ROOT / "check" / "motions.py", proof], capture_output=True,
                              text=True, check=False)
         self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
+        self.bad(*good, "--bounds=-1,-1,-18,1,1,18", "-o", "/dev/full", says=("/dev/full: cannot write: No space",))
         self.bad(*good, says=("--bounds",))
         good.append("--bounds=-1,-1,-18,1,1,18")
         self.bad(*good, "--open", says=("--open",))
