@@ -80,7 +80,8 @@ class Resumed(PlanTest):
 
     def window(self, diameter, sides):
         model = self.file(f"window-{diameter}-{sides}.off", MODELS.window(diameter, sides))
-        self.job = [self.command, "plan", str(self.model("tetrahedron")), str(model), *BOUNDS]
+        # each box by itself, so that a run takes a while
+        self.job = [self.command, "plan", str(self.model("tetrahedron")), str(model), "--asymmetric", *BOUNDS]
 
     def start(self, *options):
         return subprocess.Popen([*self.job, "-o", str(self.out), *options], stdout=subprocess.DEVNULL,
@@ -211,7 +212,7 @@ class Resumed(PlanTest):
         self.assertEqual(self.out.read_bytes(), whole)
 
     def test_a_terminal_shows_boxes_made_and_written(self):
-        self.window(.3, 3)
+        self.window(.4, 3)
         master, slave = self.open_terminal()
         with subprocess.Popen([*self.job, "-o", str(self.out)], stdout=subprocess.DEVNULL, stderr=slave) as run:
             os.close(slave)
@@ -228,6 +229,7 @@ class Resumed(PlanTest):
         job = self.job[1:]
         self.bad(*job, "--resume", says=("--resume", "-o"))
         self.bad(*job, "--resume", "-o", "-", says=("--resume", "-o"))
+        job.remove("--asymmetric")
         self.bad(*job, "--translate-only", "--resume", says=("--resume",))
 
 
