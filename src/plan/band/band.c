@@ -13,10 +13,10 @@
 #define FINER         5
 #define SPACINGS      5
 
-/* How often a row is pushed at the first spacing, and at others; and in vain before it is given up. */
-#define FIRST_PUSHES 40
-#define PUSHES       200
-#define IN_VAIN      40
+/* How often a row is pushed at a spacing, and in vain before it is given up, at the first spacing and at others. */
+#define PUSHES        200
+#define FIRST_IN_VAIN 10
+#define IN_VAIN       24
 
 /* A way that was pushed at the first spacing, with the least room of its poses. */
 struct pushed_way {
@@ -74,12 +74,12 @@ static uint64_t work_left(const pir_band *band, uint64_t begin, uint64_t work) {
  * Pushes at one spacing until the motions between poses are free, as far as rooms tell. Else the row is then that of
  * which the deepest pose was least deep, or had most room, which is how much is told.
  */
-static pir_status push(pir_band *band, double spacing, int pushes, uint64_t work, double *ret_least) {
+static pir_status push(pir_band *band, double spacing, int in_vain, uint64_t work, double *ret_least) {
     const uint64_t begin = band->bodies.work;
     pir_band_row *row = &band->row;
     double noted = -INFINITY, least;
     *ret_least = -INFINITY;
-    for (int i = 0, since = 0; i < pushes && since < IN_VAIN; i++, since++) {
+    for (int i = 0, since = 0; i < PUSHES && since < in_vain; i++, since++) {
         pir_status status = pir_band_space(&band->bodies, spacing, row);
         if (status == PIR_OK)
             status = pir_band_push_row(&band->bodies, spacing / 2, 2 * spacing, row, &least);
@@ -135,7 +135,7 @@ pir_status pir_band_add(pir_band *band, const pir_pose *way, uint32_t count, uin
     for (uint32_t i = 0; i < count; i++)
         band->row.pose[i] = unit_pose(&way[i]);
     band->row.count = count;
-    pir_status status = push(band, spacing, FIRST_PUSHES, *work, &least);
+    pir_status status = push(band, spacing, FIRST_IN_VAIN, *work, &least);
     if (status == PIR_OK)
         status = keep(band, way, count, least);
     *work = work_left(band, begin, *work);
@@ -179,7 +179,7 @@ static pir_status refine(pir_band *band, const struct pushed_way *way, uint64_t 
     pir_status status = PIR_OK;
     for (int i = 0; i < SPACINGS && status == PIR_OK && !*ret_step; i++, spacing /= FINER) {
         if (i > 0)
-            status = push(band, spacing, PUSHES, work_left(band, begin, work), &least);
+            status = push(band, spacing, IN_VAIN, work_left(band, begin, work), &least);
         // what is nearly free may come free in smaller steps
         if (status != PIR_OK || least <= -spacing / 2 || work_left(band, begin, work) == 0)
             break;

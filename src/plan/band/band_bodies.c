@@ -164,8 +164,8 @@ static pir_band_near near_of(const pir_query_result *result, const double middle
         {n[0], n[1], n[2], p[1] * n[2] - p[2] * n[1], p[2] * n[0] - p[0] * n[2], p[0] * n[1] - p[1] * n[0]}};
 }
 
-pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, double reach, pir_band_near *ret_near,
-                         uint32_t *ret_count, double *ret_least) {
+pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, double reach, double more,
+                         pir_band_near *ret_near, uint32_t *ret_count, double *ret_least) {
     const pir_band_pairs *pairs = &bodies->push;
     const double *q = pose->q, *t = pose->t;
     pir_pair_input input = pir_pair_input_default();
@@ -175,7 +175,6 @@ pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, dou
     for (int k = 0; k < 3; k++)
         middle[k] += t[k];
     input.pose_p = (pir_pose){{q[0], q[1], q[2], q[3]}, {t[0], t[1], t[2]}};
-    input.cutoff = reach;
     *ret_count = 0;
     *ret_least = reach;
     for (uint32_t i = 0; i < pairs->robots; i++) {
@@ -185,7 +184,8 @@ pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, dou
             x[k] += t[k];
         for (uint32_t k = 0; k < pairs->obstacles && status == PIR_OK; k++) {
             pir_query_result result = {0};
-            if (is_beyond(&pairs->box[k], x, reach + pairs->ball[i].radius))
+            input.cutoff = fmax(fmin(reach, *ret_least + more), 0);
+            if (is_beyond(&pairs->box[k], x, input.cutoff + pairs->ball[i].radius))
                 continue;
             status = pir_pair_signed_distance(pairs->pair[(size_t)i * pairs->obstacles + k], bodies->workspace, &input,
                                               &result);

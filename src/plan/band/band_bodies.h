@@ -57,9 +57,12 @@ typedef struct pir_band_bodies {
 pir_status pir_band_bodies_open(const pir_band_question *question, pir_band_bodies *bodies);
 void pir_band_bodies_finish(pir_band_bodies *bodies);
 
-/* The pairs within a reach at a pose, at most PIR_BAND_NEAR, and the least distance, which is at most the reach. */
-pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, double reach, pir_band_near *ret_near,
-                         uint32_t *ret_count, double *ret_least);
+/*
+ * The least distance at a pose, up to a reach, and of the pairs within that those that are no more than `more` farther
+ * than the nearest: at most PIR_BAND_NEAR, and some beyond.
+ */
+pir_status pir_band_look(pir_band_bodies *bodies, const pir_band_pose *pose, double reach, double more,
+                         pir_band_near *ret_near, uint32_t *ret_count, double *ret_least);
 
 /* Moves a pose by a step; its translation stays within the bounds. */
 void pir_band_move(const pir_band_bodies *bodies, const double step[PIR_BAND_STEP], pir_band_pose *pose);

@@ -188,7 +188,7 @@ static pir_status push_pose(pir_band_bodies *bodies, const pir_band_pose *before
     pir_band_near near[PIR_BAND_NEAR], other[PIR_BAND_NEAR];
     double along[PIR_BAND_STEP], step[PIR_BAND_STEP];
     uint32_t count, others;
-    pir_status status = pir_band_look(bodies, pose, reach, near, &count, &pose->room);
+    pir_status status = pir_band_look(bodies, pose, reach, 3 * length, near, &count, &pose->room);
     if (status != PIR_OK || count == 0 || !before)
         return status;
     pir_band_step(bodies, before, after, along);
@@ -197,7 +197,7 @@ static pir_status push_pose(pir_band_bodies *bodies, const pir_band_pose *before
         pir_band_pose moved = *pose;
         bodies->work += (uint64_t)best_step(near, count, length, step) / WORK_ROUNDS;
         pir_band_move(bodies, step, &moved);
-        status = pir_band_look(bodies, &moved, reach, other, &others, &moved.room);
+        status = pir_band_look(bodies, &moved, reach, 0, other, &others, &moved.room);
         if (status == PIR_OK && moved.room > pose->room) {
             *pose = moved;
             break;

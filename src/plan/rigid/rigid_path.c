@@ -163,10 +163,10 @@ pir_status pir_rigid_path_make(const pir_rigid_job *job, pir_rigid_result *resul
 /* --- ways that are pushed --- */
 
 /* Distances that may be asked for; how many ways there are, are pushed before the best are tried, are tried then. */
-#define WORK  ((uint64_t)1 << 21)
+#define WORK  ((uint64_t)3 << 20)
 #define WAYS  48
 #define FIRST 8
-#define TRIES 3
+#define TRIES 4
 
 static pir_vec3 point_of(const double x[3]) {
     return (pir_vec3){x[0], x[1], x[2]};
@@ -183,14 +183,14 @@ static pir_quat cube_rotation(uint32_t number) {
     }
 }
 
-/* Adds a way that turns, goes straight, and turns again: at a rotation of a cube, or the middle of a first box. */
+/* Adds a way that turns, goes straight, and turns again: at a rotation of a cube, or the middle of a small box. */
 static pir_status add_way(const pir_rigid_question *question, pir_band *band, uint32_t number, uint64_t *work,
                           double *ret_room) {
     const uint32_t of = number / 2;
     // all charts soon have their turn
-    const pir_quat middle = number % 2 == 0
-                                ? cube_rotation(of * 7 % 24)
-                                : pir_rotation_box_middle(pir_rotation_box_root(of * 13 % PIR_ROTATION_ROOTS));
+    const pir_rotation_box root = pir_rotation_box_root(of * 13 % PIR_ROTATION_ROOTS);
+    const pir_quat middle = number % 2 == 0 ? cube_rotation(of * 7 % 24)
+                                            : pir_rotation_box_middle(pir_rotation_box_child(root, of * 3 % 8));
     const pir_vec3 from = point_of(question->at[0]), to = point_of(question->at[1]);
     const pir_pose way[4] = {{question->rotation[0], from}, {middle, from}, {middle, to}, {question->rotation[1], to}};
     return pir_band_add(band, way, 4, work, ret_room);
