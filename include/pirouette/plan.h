@@ -282,7 +282,7 @@ typedef struct pir_rigid_plan_options {
     uint32_t asymmetric;
 } pir_rigid_plan_options;
 
-/** As pir_solid_options_default has it, no proof, 2^16 boxes, 2^22 parts, one thread, no journal, alone, symmetries. */
+/** Memory as of pir_solid_options_default; no proof, no journal, 2^16 boxes, 2^22 parts, 1 thread, symmetries. O(1). */
 static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
     const pir_rigid_plan_options options = {sizeof(pir_rigid_plan_options),
                                             pir_solid_options_default().memory,

@@ -1,6 +1,6 @@
 # Inner surfaces of vertex pairs: pair/surface. u = 2^-53; `e` is a corner's error over the reach, at least 128u.
-# proves: src/pair/surface/inner_surface.c "4 * error * reach * reach" 4 >= 4
-# proves: src/pair/surface/inner_surface.c "10 * error * reach" 10 >= 10
+# proves: src/pair/surface/inner_surface.h "4 * error * reach * reach" 4 >= 4
+# proves: src/pair/surface/inner_surface.h "10 * error * reach" 10 >= 10
 #
 # A det is a triple product of three corners, of length 1 over the reach, each off by e; it rounds by `triple` (cross.g).
 # A normal is a product of two sides of length 2, each off by 2e; it rounds by 3u of 4. Both over e: `e` is bounded from
