@@ -203,8 +203,8 @@ static void every_version_finds_the_triangles_that_are_near(void **state) {
         for (uint32_t k = 0; k <= scene.surface.count; k++) {
             const float limit = k < scene.surface.count ? lows->low[k] : 0;
             uint64_t right = 0;
-            for (uint32_t t = 0; t < scene.surface.count; t++)
-                right |= (uint64_t)(lows->low[t] <= limit) << t;
+            for (uint32_t t = 0; t < PIR_SURFACE_TRIANGLES; t++)
+                right |= (uint64_t)(t < scene.surface.count && lows->low[t] <= limit) << t;
             for (unsigned version = 0; pir_processor_version(version); version++)
                 assert_true(pir_processor_version(version)->surface->near(&scene.surface, limit) == right);
         }

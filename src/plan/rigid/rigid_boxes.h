@@ -14,7 +14,7 @@
 /* The first boxes. */
 void pir_rigid_boxes_begin(pir_rigid_job *job);
 
-/* Replaces the orbit of a leaf by its halves. */
+/* Replaces the orbit of a leaf by its eighths. */
 void pir_rigid_box_divide(pir_rigid_job *job, uint32_t leaf);
 
 /* Finds translations that the links share of which listed boxes are asked. */
