@@ -548,7 +548,8 @@ static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_
     if (info->answer == PIR_TURN_PLAN_UNKNOWN && run->how.journal)
         say("  %-10s all boxes; --resume goes on from them with more --boxes, --budget or --memory\n", "kept");
     if (info->answer == PIR_TURN_PLAN_PATH)
-        say("  %-10s %" PRIu32 ", each a translation or a turn away; -o or --json tells them\n", "poses", info->steps);
+        say("  %-10s %" PRIu32 ", by motions that are proven to be free; -o or --json tells them\n", "poses",
+            info->steps);
     say("  %-10s %" PRIu32 " of rotations, %" PRIu32 " more divided, %" PRIu64 " parts of translations\n", "boxes",
         info->boxes, info->divided, info->parts);
     if (info->symmetries > 1)
