@@ -6,7 +6,7 @@
  *
  * Without PIR_TEST_CASES, some n; with it, that many for each question, evenly.
  */
-#include "support/test.h"
+#include "gates.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -14,8 +14,6 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <pirouette/pirouette.h>
 
 /* Requests so far, the one that fails, 0 for none, and the last one for a name, which is that of the journal. */
 static atomic_ulong requests, failing, naming;
@@ -65,42 +63,12 @@ struct question {
     size_t proof_size;
 };
 
-static pir_solid *solid_of(const pir_vec3 *p, size_t points, const uint32_t *starts, const uint32_t *corners,
-                           size_t facets) {
-    const pir_solid_facets made = {p, points, starts, corners, facets};
-    pir_solid *solid = NULL;
-    assert_int_equal(pir_solid_create(&made, NULL, NULL, &solid), PIR_OK);
-    return solid;
-}
-
-static pir_solid *make_box(pir_vec3 low, pir_vec3 high) {
-    static const uint32_t sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-    static const uint32_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
-    pir_vec3 p[8];
-    for (int i = 0; i < 8; i++)
-        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
-    return solid_of(p, 8, starts, sides, 6);
-}
-
 /* With half an edge of a cube about the tetrahedron, and half the width of the window. */
 static void make_question(double e, double x, uint32_t boxes, pir_turn_plan_answer answer, struct question *q) {
-    static const uint32_t sides[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2}, starts[5] = {0, 3, 6, 9, 12};
     const pir_vec3 corner[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
-    const pir_vec3 low[4] = {{-9, -9, -.5}, {x, -9, -.5}, {-x, -9, -.5}, {-x, x, -.5}},
-                   high[4] = {{-x, 9, .5}, {9, 9, .5}, {x, -x, .5}, {x, 9, .5}};
-    const double way = 2 * e + 1;
     *q = (struct question){.boxes = boxes, .answer = answer, .journal = "rigid_memory_XXXXXX"};
-    q->robot = solid_of(corner, 4, starts, sides, 4);
-    for (int i = 0; i < 4; i++)
-        q->wall[i] = make_box(low[i], high[i]);
-    q->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)&q->robot,
-                                      .robot_count = 1,
-                                      .obstacles = (const pir_solid *const *)q->wall,
-                                      .obstacle_count = 4,
-                                      .low = {-1, -1, -way - .5},
-                                      .high = {1, 1, way + .5},
-                                      .from = {{0, 0, 0, 1}, {0, 0, -way}},
-                                      .to = {{.3, -.2, .1, -.9}, {0, 0, way}}};
+    q->robot = make_simplex(corner);
+    q->input = make_gate_of(2 * x, 2 * x, 2 * e + 1, &q->robot, q->wall, NULL);
     const int descriptor = mkstemp(q->journal);
     assert_true(descriptor >= 0);
     close(descriptor);

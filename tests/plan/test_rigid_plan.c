@@ -6,13 +6,11 @@
  * against what is known of gates: a box that has a ball larger than the window is wide never goes through; one whose
  * least side face fits the window does.
  */
-#include "support/test.h"
+#include "gates.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-#include <pirouette/pirouette.h>
 
 #define MOST_WALLS 96
 
@@ -28,32 +26,12 @@ static double uniform(double low, double high) {
     return low + (high - low) * (rand() / (double)RAND_MAX);
 }
 
-static pir_solid *solid_of(const pir_vec3 *p, size_t points, const uint32_t *starts, const uint32_t *corners,
-                           size_t facets) {
-    const pir_solid_facets made = {p, points, starts, corners, facets};
-    pir_solid *solid = NULL;
-    assert_int_equal(pir_solid_create(&made, NULL, NULL, &solid), PIR_OK);
-    return solid;
-}
-
-static pir_solid *make_box(pir_vec3 low, pir_vec3 high, pir_polytope **ret_shape) {
-    static const uint32_t sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
-    static const uint32_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
-    pir_vec3 p[8];
-    for (int i = 0; i < 8; i++)
-        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
-    assert_int_equal(pir_polytope_create(p, 8, NULL, ret_shape), PIR_OK);
-    return solid_of(p, 8, starts, sides, 6);
-}
-
 /* A regular tetrahedron, with a ball of a third of the radius, or one that is nearly so. */
 static pir_solid *make_tetrahedron(double radius, bool is_bent, pir_polytope **ret_shape) {
-    static const uint32_t sides[12] = {0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2};
-    static const uint32_t starts[5] = {0, 3, 6, 9, 12};
     const double e = radius / sqrt(3);
     const pir_vec3 p[4] = {{is_bent ? nextafter(e, 2 * e) : e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
     assert_int_equal(pir_polytope_create(p, 4, NULL, ret_shape), PIR_OK);
-    return solid_of(p, 4, starts, sides, 4);
+    return make_simplex(p);
 }
 
 static pir_solid *make_octahedron(double radius, pir_polytope **ret_shape) {
@@ -67,20 +45,8 @@ static pir_solid *make_octahedron(double radius, pir_polytope **ret_shape) {
 
 /* A plate about the plane z = 0 with a window along the axes; the robot goes from under it to over it. */
 static void make_wall(double width, double length, double way, struct gate *g) {
-    const double x = width / 2, y = length / 2;
-    const pir_vec3 low[4] = {{-9, -9, -.5}, {x, -9, -.5}, {-x, -9, -.5}, {-x, y, -.5}},
-                   high[4] = {{-x, 9, .5}, {9, 9, .5}, {x, -y, .5}, {x, 9, .5}};
     g->walls = g->plates = 4;
-    for (int i = 0; i < g->walls; i++)
-        g->wall[i] = make_box(low[i], high[i], &g->plate[i]);
-    g->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)&g->robot,
-                                      .robot_count = 1,
-                                      .obstacles = (const pir_solid *const *)g->wall,
-                                      .obstacle_count = 4,
-                                      .low = {-1, -1, -way - .5},
-                                      .high = {1, 1, way + .5},
-                                      .from = {{0, 0, 0, 1}, {0, 0, -way}},
-                                      .to = {{.3, -.2, .1, -.9}, {0, 0, way}}};
+    g->input = make_gate_of(width, length, way, &g->robot, g->wall, g->plate);
 }
 
 /* A thin round plate about a window of 96 corners on a circle; the tetrahedron of edge 1 before it. */
