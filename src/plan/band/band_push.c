@@ -53,14 +53,14 @@ static pir_band_pose between(const pir_band_bodies *bodies, const pir_band_pose 
     return pose;
 }
 
-/* Whether two poses are nearer than their rooms: no vertex moves by more than √2 times the length of a step. */
-static bool are_near(const pir_band_bodies *bodies, const pir_band_pose *a, const pir_band_pose *b) {
+/* How far two poses are apart; 0 where that is less than their rooms: no vertex moves by more than √2 of a step. */
+static double gap_between(const pir_band_bodies *bodies, const pir_band_pose *a, const pir_band_pose *b) {
     double step[PIR_BAND_STEP];
-    return pir_band_step(bodies, a, b, step) < ROOM_PART * (a->room + b->room);
+    const double far = pir_band_step(bodies, a, b, step);
+    return far < ROOM_PART * (a->room + b->room) ? 0 : far;
 }
 
 pir_status pir_band_space(const pir_band_bodies *bodies, double spacing, pir_band_row *row) {
-    double step[PIR_BAND_STEP];
     uint32_t count = 1;
     if (row->count > MOST_POSES)
         return PIR_ERR_LIMIT;
@@ -69,9 +69,9 @@ pir_status pir_band_space(const pir_band_bodies *bodies, double spacing, pir_ban
     row->spare[0] = row->pose[0];
     for (uint32_t i = 1; i < row->count; i++) {
         const pir_band_pose *last = &row->spare[count - 1], *pose = &row->pose[i];
-        if (i + 1 < row->count && are_near(bodies, last, &row->pose[i + 1]))
+        if (i + 1 < row->count && gap_between(bodies, last, &row->pose[i + 1]) == 0)
             continue;
-        if (pir_band_step(bodies, last, pose, step) > spacing && !are_near(bodies, last, pose))
+        if (gap_between(bodies, last, pose) > spacing)
             row->spare[count++] = between(bodies, last, pose);
         row->spare[count++] = *pose;
     }
@@ -83,10 +83,9 @@ pir_status pir_band_space(const pir_band_bodies *bodies, double spacing, pir_ban
 }
 
 double pir_band_gap(const pir_band_bodies *bodies, const pir_band_row *row) {
-    double step[PIR_BAND_STEP], gap = 0;
+    double gap = 0;
     for (uint32_t i = 1; i < row->count; i++)
-        if (!are_near(bodies, &row->pose[i - 1], &row->pose[i]))
-            gap = fmax(gap, pir_band_step(bodies, &row->pose[i - 1], &row->pose[i], step));
+        gap = fmax(gap, gap_between(bodies, &row->pose[i - 1], &row->pose[i]));
     return gap;
 }
 
