@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include <pirouette/pirouette.h>
 
@@ -651,13 +652,25 @@ static int foresee(struct plan_run *run) {
     return EXIT_DONE;
 }
 
+/* Whether a journal is to be gone on with, or is none yet: one of an earlier run is not lost unasked. */
+static bool may_begin(const struct plan_run *run, const char *journal) {
+    const bool resume = args_has(run->args, "--resume");
+    if (resume && !journal)
+        complain("plan: --resume needs -o FILE, beside which FILE.part is");
+    else if (!resume && journal && access(journal, F_OK) == 0)
+        complain("%s: an earlier run has left this; --resume goes on with it, and to begin anew, remove it", journal);
+    else
+        return true;
+    return false;
+}
+
 /* Plans with neither --axis nor --translate-only. */
 static int plan_motions(struct plan_run *run, struct output_file *file) {
     pir_rigid_plan *plan = NULL;
     char *journal = journal_of(file);
     const bool is_first = !run->ranks || run->ranks->number == 0;
-    if (args_has(run->args, "--resume") && is_first && !journal) {
-        complain("plan: --resume needs -o FILE, beside which FILE.part is");
+    if (is_first && !may_begin(run, journal)) {
+        free(journal);
         return EXIT_BAD_INPUT;
     }
     run->how.ranks = run->ranks;

@@ -113,7 +113,8 @@ static const struct option plan_options[] = {
     {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
     {"--asymmetric", NULL, "by any motion: make each box by itself, where symmetries of bodies would save some"},
     {"--resume", NULL,
-     "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer"},
+     "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer; "
+     "without this such a file is an error"},
     {"--dry-run", NULL, "by any motion: make 32 boxes, and tell about how long --boxes would take, but decide nothing"},
     {"--bounds", "x,y,z,x,y,z", "keep translations between these least and greatest ones (none)"},
     {"--open", NULL, "with --translate-only: bodies may touch, so passages count that the robot fits exactly"},

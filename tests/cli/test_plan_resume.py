@@ -156,9 +156,17 @@ class Resumed(PlanTest):
         self.assertEqual(self.run_job("--resume", "--boxes=40", "--json").returncode, 0)
         self.assertGreater(self.part.stat().st_size, kept)
         self.assertRegex(self.run_job("--resume", "--memory=1").stdout, "^unknown")
-        self.window(.2, 4)  # another question, not resumed
-        self.assertEqual(self.run_job().returncode, 0)
-        self.assertFalse(self.part.exists())
+
+    def test_a_journal_is_not_begun_anew_unasked(self):
+        whole, _ = self.whole()
+        journal = self.journal(2000)
+        run = self.run_job()
+        self.assertEqual((run.returncode, run.stdout, self.out.exists(), self.part.read_bytes()),
+                         (2, "", False, journal))
+        self.assertRegex(run.stderr, r"a\.json\.part: an earlier run has left this; --resume goes on .* remove it\n$")
+        self.assertEqual(self.data(*self.job[1:], "--dry-run", "-o", self.out)["boxes"], 65536)  # keeps nothing
+        self.finish(whole)
+        self.assertEqual((self.run_job().returncode, self.out.read_bytes()), (0, whole))
 
     def test_a_damaged_journal_is_as_good_as_its_beginning(self):
         whole, _ = self.whole()
