@@ -425,10 +425,22 @@ static const char *turn_answer_name(pir_turn_plan_answer answer) {
     return answer == PIR_TURN_PLAN_PATH ? "path" : answer == PIR_TURN_PLAN_NO_PATH ? "no path" : "unknown";
 }
 
+/* The reasons that a plan is unknown, in words for programs and for people. */
+static const char *const end_name[] = {"decided", "boxes", "parts", "memory", "caller", "finest"};
+static const char *const end_text[] = {
+    "",
+    "boxes of rotations: --boxes allows more",
+    "parts of translations: --budget allows more",
+    "memory: --memory allows more",
+    "the caller",
+    "the size of boxes: those in doubt are the finest ones, and no budget decides it"};
+
 static bool print_turns_json(FILE *file, const struct plan_run *run, const pir_turn_plan *plan,
                              const pir_turn_plan_info *info) {
     struct json json = json_new();
     json_add_text(&json, json.root, "answer", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN)
+        json_add_text(&json, json.root, "ended", info->end == PIR_PLAN_END_BOXES ? "arcs" : end_name[info->end]);
     cJSON *path = info->answer == PIR_TURN_PLAN_PATH ? json_add_array(&json, json.root, "path") : NULL;
     for (uint32_t i = 0; i < info->steps; i++) {
         pir_turn_plan_step step;
@@ -449,6 +461,11 @@ static void print_turns_text(const struct plan_run *run, const pir_turn_plan_inf
     char time[TEXT_NUMBER];
     text_time(run->seconds * 1e9, time);
     say("%s, by translations and turns about the axis, for closed bodies\n", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN)
+        say("  %-10s %s\n", "ended by",
+            info->end == PIR_PLAN_END_BOXES    ? "arcs of the turn: --arcs allows more"
+            : info->end == PIR_PLAN_END_MEMORY ? "memory"
+                                               : end_text[info->end]);
     if (info->answer == PIR_TURN_PLAN_PATH)
         say("  %-10s %" PRIu32 ", each a motion and a turn; -o or --json tells them\n", "steps", info->steps);
     say("  %-10s %" PRIu32 ", in %" PRIu32 " parts of boxes\n", "arcs", info->arcs, info->parts);
@@ -522,6 +539,8 @@ static bool print_motions_json(FILE *file, const struct plan_run *run, const pir
                                const pir_rigid_plan_info *info) {
     struct json json = json_new();
     json_add_text(&json, json.root, "answer", turn_answer_name(info->answer));
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN)
+        json_add_text(&json, json.root, "ended", end_name[info->end]);
     cJSON *path = info->answer == PIR_TURN_PLAN_PATH ? json_add_array(&json, json.root, "path") : NULL;
     for (uint32_t i = 0; i < info->steps; i++) {
         pir_pose pose;
@@ -546,8 +565,10 @@ static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_
     char time[TEXT_NUMBER];
     text_time(run->seconds * 1e9, time);
     say("%s, by any motion, for closed bodies\n", turn_answer_name(info->answer));
-    if (info->answer == PIR_TURN_PLAN_UNKNOWN && run->how.journal)
-        say("  %-10s all boxes; --resume goes on from them with more --boxes, --budget or --memory\n", "kept");
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN)
+        say("  %-10s %s\n", "ended by", end_text[info->end]);
+    if (info->answer == PIR_TURN_PLAN_UNKNOWN && run->how.journal && info->end != PIR_PLAN_END_FINEST)
+        say("  %-10s all boxes; --resume goes on from them\n", "kept");
     if (info->answer == PIR_TURN_PLAN_PATH)
         say("  %-10s %" PRIu32 ", by motions that are proven to be free; -o or --json tells them\n", "poses",
             info->steps);

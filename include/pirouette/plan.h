@@ -158,10 +158,20 @@ static inline pir_turn_plan_options pir_turn_plan_options_default(void) {
 
 /** The outcome of a plan with turns. */
 typedef enum pir_turn_plan_answer {
-    PIR_TURN_PLAN_UNKNOWN = 0, /**< arcs, parts or memory ended first */
+    PIR_TURN_PLAN_UNKNOWN = 0, /**< something else ended it first: a pir_plan_end */
     PIR_TURN_PLAN_PATH,
     PIR_TURN_PLAN_NO_PATH
 } pir_turn_plan_answer;
+
+/** The reason that a plan with turns ended: the budget of which more may decide it, where that is one. */
+typedef enum pir_plan_end {
+    PIR_PLAN_END_DECIDED = 0, /**< the answer is not unknown */
+    PIR_PLAN_END_BOXES,       /**< arcs of the turn, or boxes of all rotations: `arcs`, `boxes` */
+    PIR_PLAN_END_PARTS,       /**< a division of translations: `parts` */
+    PIR_PLAN_END_MEMORY,      /**< what is held: `memory` */
+    PIR_PLAN_END_CALLER,      /**< `progress`, which was false */
+    PIR_PLAN_END_FINEST       /**< no budget: no box in doubt can be divided or block more, as after 18 halvings */
+} pir_plan_end;
 
 /** The question of a plan with turns. Arrays and solids are borrowed for the call. Bodies are closed. */
 typedef struct pir_turn_plan_input {
@@ -182,6 +192,7 @@ typedef struct pir_turn_plan_info {
     uint32_t arcs;  /**< that the full turn was divided into in the end */
     uint32_t parts; /**< of the boxes of all of these */
     uint32_t robot_pieces, obstacle_pieces;
+    pir_plan_end end; /**< of DECIDED, BOXES, PARTS and MEMORY */
 } pir_turn_plan_info;
 
 /** A step of a path: a straight motion to `at` at any angle of an interval, then a turn there to the next interval. */
@@ -318,6 +329,7 @@ typedef struct pir_rigid_plan_info {
     uint64_t parts;          /**< of all boxes of translations that were divided */
     uint32_t robot_pieces, obstacle_pieces;
     uint32_t symmetries; /**< how many boxes, of those at the end, one stands for; 1 where there is no symmetry */
+    pir_plan_end end;    /**< why it ended */
 } pir_rigid_plan_info;
 
 /**

@@ -58,7 +58,7 @@ static void push(struct divider *d, uint32_t node, pir_plan_cell *cell, const ui
 static uint32_t add_node(struct divider *d) {
     pir_plan_tree *tree = d->tree;
     if (tree->node_count >= d->most && d->space->status == PIR_OK)
-        d->space->status = PIR_ERR_LIMIT;
+        d->space->status = PIR_PLAN_ERR_PARTS;
     if (!pir_plan_grow(d->space, (void **)&tree->node, &tree->node_room, tree->node_count + 1, sizeof *tree->node))
         return 0;
     tree->node[tree->node_count] = (pir_plan_node){.child = {PIR_PLAN_NONE, 0}, .face = PIR_PLAN_NONE};

@@ -35,8 +35,8 @@ typedef struct pir_plan_tree {
     bool open;              /* whether sums are */
 } pir_plan_tree;
 
-/* Divides the box of a tree. Failures are in the space's status; PIR_ERR_LIMIT where more than `most` nodes would be
- * needed. */
+/* Divides the box of a tree. Failures are in the space's status; PIR_PLAN_ERR_PARTS where more than `most` nodes would
+ * be needed. */
 void pir_plan_divide(pir_plan_cutter *cutter, const pir_plan_sums *sums, uint32_t most, pir_plan_tree *tree);
 
 /* Divides free parts by sums from one on, which are new. */

@@ -179,18 +179,17 @@ static pir_status make_plan(pir_path_plan *plan, const struct question *q) {
     return status;
 }
 
-/* Fills the report where no stage has. */
-static void tell(const struct question *q, const pir_path_plan *plan, pir_status status) {
+/* Fills the report where no stage has. The status that callers are told. */
+static pir_status tell(const struct question *q, const pir_path_plan *plan, pir_status status) {
     pir_report *report = q->how.report;
     if (report->status == status)
-        return;
-    if (status == PIR_ERR_LIMIT && q->how.parts > 0 && plan->tree.node_count >= q->how.parts)
-        pir_fail(report, status, "plan: more than %u parts are needed", q->how.parts);
-    else if (status == PIR_ERR_LIMIT)
-        pir_fail(report, status, "plan: more than %zu bytes are needed, with %u parts of the box made", q->how.memory,
-                 plan->tree.node_count);
-    else
-        pir_fail(report, status, "plan: %s", pir_status_text(status));
+        return status;
+    if (status == PIR_PLAN_ERR_PARTS)
+        return pir_fail(report, PIR_ERR_LIMIT, "plan: more than %u parts are needed", q->how.parts);
+    if (status == PIR_ERR_LIMIT)
+        return pir_fail(report, status, "plan: more than %zu bytes are needed, with %u parts of the box made",
+                        q->how.memory, plan->tree.node_count);
+    return pir_fail(report, status, "plan: %s", pir_status_text(status));
 }
 
 static pir_status answer(struct question *q, pir_path_plan **ret_plan) {
@@ -211,7 +210,7 @@ static pir_status answer(struct question *q, pir_path_plan **ret_plan) {
         *ret_plan = plan;
         return PIR_OK;
     }
-    tell(q, plan, status);
+    status = tell(q, plan, status);
     pir_path_plan_destroy(plan);
     return status;
 }

@@ -36,6 +36,13 @@
 #define PIR_PLAN_TINY  0x1p-1000
 #define PIR_PLAN_NONE  UINT32_MAX
 
+/*
+ * Statuses of plans beside PIR_ERR_LIMIT, which is then that memory ends: more parts are needed than may be made, and
+ * the caller has ended it. Callers of the library are never told them.
+ */
+#define PIR_PLAN_ERR_PARTS  ((pir_status)(PIR_ERR_INTERNAL + 1))
+#define PIR_PLAN_ERR_CALLER ((pir_status)(PIR_ERR_INTERNAL + 2))
+
 typedef struct pir_plan_plane {
     mpz_t n[3], d;
     double a[3], b;

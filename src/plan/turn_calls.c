@@ -89,9 +89,9 @@ static pir_status decide(struct turn_call *t, pir_turn_plan *plan) {
     status = pir_plan_turn(&question, &plan->result);
     if (status == PIR_ERR_ARGUMENT)
         return pir_fail(t->how.report, status, "from, to: the robot meets an obstacle at one of them");
-    static const pir_turn_plan_answer told[] = {PIR_TURN_PLAN_UNKNOWN, PIR_TURN_PLAN_PATH, PIR_TURN_PLAN_NO_PATH};
-    plan->info = (pir_turn_plan_info){told[plan->result.answer], plan->result.steps, plan->result.arcs,
-                                      plan->result.parts,        t->robot.count,     t->obstacles.count};
+    const pir_turn_result *r = &plan->result;
+    plan->info =
+        (pir_turn_plan_info){r->answer, r->steps, r->arcs, r->parts, t->robot.count, t->obstacles.count, r->end};
     return status;
 }
 

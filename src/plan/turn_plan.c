@@ -85,7 +85,7 @@ static pir_status add_arc(struct layers *l, uint32_t arc) {
         tree->high[k] = l->question->high[k];
     }
     if (l->parts >= l->question->most_parts)
-        return PIR_ERR_LIMIT;
+        return PIR_PLAN_ERR_PARTS;
     pir_plan_divide(&l->cutter, &l->sums[arc], l->question->most_parts - l->parts, tree);
     l->parts += tree->node_count;
     if (l->space.status == PIR_OK)
@@ -195,7 +195,7 @@ static bool add_motion(struct layers *l, uint32_t cell, uint32_t point, pir_turn
 }
 
 static pir_status make_path(struct layers *l, const uint32_t cell[2], const uint32_t end[2], pir_turn_result *ret) {
-    pir_turn_result path = {.answer = PIR_TURN_PATH, .arcs = l->arcs / 2, .parts = l->parts};
+    pir_turn_result path = {.answer = PIR_TURN_PLAN_PATH, .arcs = l->arcs / 2, .parts = l->parts};
     uint32_t *by = reach(l, cell[1], cell[0]), at = cell[0];
     path.step = malloc((2 * (size_t)l->links + 4) * sizeof *path.step);
     bool good = by && path.step && add_step(l, end[0], arc_of(l, at), &path);
@@ -315,7 +315,7 @@ static pir_status decide(struct layers *l, pir_turn_result *ret) {
     if (joined && l->outer)
         return make_path(l, cell, end, ret);
     if (!joined && !l->outer) {
-        ret->answer = PIR_TURN_NO_PATH;
+        ret->answer = PIR_TURN_PLAN_NO_PATH;
         return q->proof ? write_proof(l, root_of(l, cell[0])) : PIR_OK;
     }
     return PIR_OK;
@@ -344,15 +344,19 @@ static pir_status try_layers(const pir_turn_question *question, uint32_t arcs, b
 }
 
 pir_status pir_plan_turn(const pir_turn_question *question, pir_turn_result *ret_result) {
-    pir_status status = PIR_OK;
     *ret_result = (pir_turn_result){0};
     for (uint32_t arcs = 8; arcs <= question->most_arcs; arcs *= 2)
         for (int outer = 0; outer < 2; outer++) {
-            status = try_layers(question, arcs, outer, ret_result);
-            if (status == PIR_ERR_LIMIT && outer)
-                continue;
-            if (status != PIR_OK || ret_result->answer != PIR_TURN_UNKNOWN)
-                return status == PIR_ERR_LIMIT ? PIR_OK : status;
+            const pir_status status = try_layers(question, arcs, outer, ret_result);
+            const pir_plan_end limit = status == PIR_PLAN_ERR_PARTS ? PIR_PLAN_END_PARTS : PIR_PLAN_END_MEMORY;
+            const bool is_limited = status == PIR_PLAN_ERR_PARTS || status == PIR_ERR_LIMIT;
+            ret_result->end = is_limited ? limit : PIR_PLAN_END_DECIDED;
+            if (is_limited && outer)
+                continue; // a robot that is too thin for outer pieces, too
+            if (status != PIR_OK || ret_result->answer != PIR_TURN_PLAN_UNKNOWN)
+                return is_limited ? PIR_OK : status;
         }
-    return status == PIR_ERR_LIMIT ? PIR_OK : status;
+    // more arcs may decide
+    ret_result->end = PIR_PLAN_END_BOXES;
+    return PIR_OK;
 }

@@ -20,9 +20,9 @@
 
 #include <stdio.h>
 
-#include "plan/divide.h"
+#include <pirouette/plan.h>
 
-enum pir_turn_answer { PIR_TURN_UNKNOWN, PIR_TURN_PATH, PIR_TURN_NO_PATH };
+#include "plan/divide.h"
 
 typedef struct pir_turn_question {
     const pir_plan_pieces *robot, *obstacles;
@@ -42,7 +42,8 @@ typedef struct pir_turn_step {
 } pir_turn_step;
 
 typedef struct pir_turn_result {
-    enum pir_turn_answer answer;
+    pir_turn_plan_answer answer;
+    pir_plan_end end;
     uint32_t arcs;       /* that it was decided with, or the last ones */
     uint32_t parts;      /* of all boxes, in the last division */
     pir_turn_step *step; /* of a path; from malloc */

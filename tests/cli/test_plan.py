@@ -141,7 +141,7 @@ class Plan(PlanTest):
             plate, proof = self.file("plate.obj", boxes(*walls)), self.path / "turns.json"
             told = self.data("plan", bar, plate, "--axis=0,0,2", "--bounds=-4,-4,-4,4,4,4", "--from=0,0,-3,-90",
                              "--to=0,0,3,30", "-o", proof)
-            self.assertEqual((told["answer"], told["obstacle_pieces"]), (answer, 4))
+            self.assertEqual((told["answer"], told["obstacle_pieces"], "ended" in told), (answer, 4, False))
             run = subprocess.run([sys.executable, "-B", ROOT / "check" / "turns.py", proof], capture_output=True,
                                  text=True, check=False)
             if answer == "path":
@@ -150,7 +150,13 @@ class Plan(PlanTest):
             else:
                 self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
         good = ["plan", bar, plate, "--axis=0,0,1", "--from=0,0,-3", "--to=0,0,3,30"]
-        self.assertEqual(self.data(*good, "--bounds=-4,-4,-4,4,4,4", "--budget=9")["answer"], "unknown")
+        tight = self.file("tight.obj", boxes(*(((a, b, -1), (c, d, 1)) for a, b, c, d in (
+            (-9, -9, -.5, 9), (.5, -9, 9, 9), (-.5, -9, .5, -2.2), (-.5, 2.2, .5, 9)))))
+        for options, ended, named in ((["--budget=9"], "parts", "--budget"), (["--arcs=8"], "arcs", "--arcs")):
+            ask = [*good[:2], tight, *good[3:], "--bounds=-4,-4,-4,4,4,4", *options]
+            told = self.data(*ask)
+            self.assertEqual((told["answer"], told["ended"]), ("unknown", ended))
+            self.assertRegex(self.good(*ask), f"^unknown, .*\n  ended by +{ended} .*: {named} allows more\n")
         self.bad(*good, says=("--bounds",))
         good.append("--bounds=-4,-4,-4,4,4,4")
         self.bad(*good, "--translate-only", says=("--translate-only",))

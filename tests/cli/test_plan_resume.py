@@ -4,6 +4,7 @@
 
 PIR_TEST_KILLS says how often a run is killed (4), PIR_TEST_SEED when.
 """
+import json
 import os
 import random
 import re
@@ -151,11 +152,13 @@ class Resumed(PlanTest):
     def test_an_unknown_answer_goes_on_with_more_boxes(self):
         self.window(.3, 3)
         run = self.run_job("--boxes=32")
-        self.assertRegex(run.stdout, "^unknown, (.|\n)*kept +all boxes; --resume goes on")
+        self.assertRegex(run.stdout,
+                         "^unknown, .*\n  ended by +boxes .*: --boxes .*\n  kept +all boxes; --resume goes on")
         kept = self.part.stat().st_size
-        self.assertEqual(self.run_job("--resume", "--boxes=40", "--json").returncode, 0)
-        self.assertGreater(self.part.stat().st_size, kept)
-        self.assertRegex(self.run_job("--resume", "--memory=1").stdout, "^unknown")
+        for options, ended in ((["--boxes=40"], "boxes"), (["--memory=1"], "memory"), (["--budget=9"], "parts")):
+            told = json.loads(self.run_job("--resume", *options, "--json").stdout)
+            self.assertEqual((told["answer"], told["ended"]), ("unknown", ended))
+            self.assertGreater(self.part.stat().st_size, kept)
 
     def test_a_journal_is_not_begun_anew_unasked(self):
         whole, _ = self.whole()

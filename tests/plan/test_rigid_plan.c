@@ -167,6 +167,7 @@ static pir_turn_plan_answer ask_as(const struct gate *g, bool asymmetric, uint32
     pir_rigid_plan_describe(plan, ret_info);
     printf("answer %d, %u boxes, %llu parts, %u steps\n", (int)ret_info->answer, ret_info->boxes,
            (unsigned long long)ret_info->parts, ret_info->steps);
+    assert_int_equal(ret_info->answer == PIR_TURN_PLAN_UNKNOWN, ret_info->end != PIR_PLAN_END_DECIDED);
     if (ret_info->answer == PIR_TURN_PLAN_PATH)
         check_path(g, plan, ret_info->steps, getenv("PIR_TEST_CASES") ? 1000 : 40);
     else
@@ -182,7 +183,7 @@ static pir_turn_plan_answer ask(const struct gate *g, uint32_t boxes, uint32_t t
 
 static void check_same(const pir_rigid_plan_info *a, const pir_rigid_plan_info *b) {
     assert_true(a->answer == b->answer && a->steps == b->steps && a->boxes == b->boxes && a->divided == b->divided &&
-                a->parts == b->parts && a->symmetries == b->symmetries);
+                a->parts == b->parts && a->symmetries == b->symmetries && a->end == b->end);
 }
 
 static void make_gate(double a, double b, double c, double width, double length, struct gate *g) {
@@ -260,15 +261,20 @@ static void test_budget(void **state) {
     make_gate(1.02, 1.02, 1.02, 1, 1, &g);
     assert_int_equal(ask(&g, 64, 1, NULL, &info), PIR_TURN_PLAN_UNKNOWN);
     assert_true(info.boxes <= 64);
-    // memory that ends while boxes are divided
-    pir_rigid_plan_options options = pir_rigid_plan_options_default();
-    pir_rigid_plan *plan = NULL;
-    options.memory = 600000;
-    assert_int_equal(pir_rigid_plan_create(&g.input, &options, &plan), PIR_OK);
-    pir_rigid_plan_describe(plan, &info);
-    printf("little memory: %u boxes\n", info.boxes);
-    assert_int_equal(info.answer, PIR_TURN_PLAN_UNKNOWN);
-    pir_rigid_plan_destroy(plan);
+    assert_int_equal(info.end, PIR_PLAN_END_BOXES);
+    // memory, or parts, that end while boxes are divided
+    for (int of_parts = 0; of_parts < 2; of_parts++) {
+        pir_rigid_plan_options options = pir_rigid_plan_options_default();
+        pir_rigid_plan *plan = NULL;
+        options.memory = of_parts ? options.memory : 600000;
+        options.parts = of_parts ? 40 : options.parts;
+        assert_int_equal(pir_rigid_plan_create(&g.input, &options, &plan), PIR_OK);
+        pir_rigid_plan_describe(plan, &info);
+        printf("little %s: %u boxes\n", of_parts ? "of parts" : "memory", info.boxes);
+        assert_int_equal(info.answer, PIR_TURN_PLAN_UNKNOWN);
+        assert_int_equal(info.end, of_parts ? PIR_PLAN_END_PARTS : PIR_PLAN_END_MEMORY);
+        pir_rigid_plan_destroy(plan);
+    }
     release_gate(&g);
 }
 
@@ -305,6 +311,7 @@ static void test_progress(void **state) {
         assert_int_equal(pir_rigid_plan_create(&g.input, &options, &plan), PIR_OK);
         pir_rigid_plan_describe(plan, &info);
         assert_int_equal(info.answer, end == 0 ? PIR_TURN_PLAN_NO_PATH : PIR_TURN_PLAN_UNKNOWN);
+        assert_int_equal(info.end, end == 0 ? PIR_PLAN_END_DECIDED : PIR_PLAN_END_CALLER);
         calls = end == 0 ? told.calls : calls;
         assert_int_equal(told.calls, end == 0 ? calls : end);
         assert_true(end > 0 || (told.made == 32 && told.written == 32));

@@ -210,13 +210,17 @@ static void questions_that_are_none(void **state) {
     pir_turn_plan_options options = pir_turn_plan_options_default();
     options.arcs = 100;
     check_refused(&good, &options, PIR_ERR_ARGUMENT, "arcs");
-    options = pir_turn_plan_options_default();
-    options.parts = 50;
-    assert_int_equal(pir_turn_plan_create(&good, &options, &plan), PIR_OK);
-    pir_turn_plan_info info;
-    pir_turn_plan_describe(plan, &info);
-    assert_int_equal(info.answer, PIR_TURN_PLAN_UNKNOWN);
-    pir_turn_plan_destroy(plan);
+    for (int of_memory = 0; of_memory < 2; of_memory++) {
+        pir_turn_plan_info info;
+        options = pir_turn_plan_options_default();
+        options.parts = of_memory ? options.parts : 50;
+        options.memory = of_memory ? 80000 : options.memory;
+        assert_int_equal(pir_turn_plan_create(&good, &options, &plan), PIR_OK);
+        pir_turn_plan_describe(plan, &info);
+        assert_int_equal(info.answer, PIR_TURN_PLAN_UNKNOWN);
+        assert_int_equal(info.end, of_memory ? PIR_PLAN_END_MEMORY : PIR_PLAN_END_PARTS);
+        pir_turn_plan_destroy(plan);
+    }
     pir_turn_plan_destroy(NULL);
     release_slot(&s);
 }

@@ -61,7 +61,7 @@ static void check_path(const pir_turn_result *r, const pir_plan_pieces *robot, c
 /* The file for proofs of no path, or NULL. */
 static const char *proof;
 
-static enum pir_turn_answer ask(pir_turn_question *q, pir_polytope *bar, pir_polytope **wall, uint32_t walls) {
+static pir_turn_plan_answer ask(pir_turn_question *q, pir_polytope *bar, pir_polytope **wall, uint32_t walls) {
     uint32_t body[4] = {0, 0, 0, 0};
     const pir_plan_pieces robot = {.at = &bar, .body = body, .count = 1};
     const pir_plan_pieces obstacles = {.at = wall, .body = body, .count = walls};
@@ -73,6 +73,7 @@ static enum pir_turn_answer ask(pir_turn_question *q, pir_polytope *bar, pir_pol
     assert_int_equal(pir_plan_turn(q, &r), PIR_OK);
     printf("answer %d, %u arcs, %u parts, %u steps, %.2f s\n", (int)r.answer, r.arcs, r.parts, r.steps,
            (double)(clock() - start) / CLOCKS_PER_SEC);
+    assert_int_equal(r.end, r.answer == PIR_TURN_PLAN_UNKNOWN ? PIR_PLAN_END_BOXES : PIR_PLAN_END_DECIDED);
     check_path(&r, &robot, &obstacles);
     if (q->proof)
         assert_int_equal(fclose(q->proof), 0);
@@ -88,7 +89,7 @@ static pir_turn_question question(uint32_t arcs) {
 }
 
 /* The answer for a slot of a width and a length, along y but for a turn. */
-static enum pir_turn_answer slot(double turn, double width, double length, uint32_t arcs) {
+static pir_turn_plan_answer slot(double turn, double width, double length, uint32_t arcs) {
     const double x = width / 2, y = length / 2;
     pir_polytope *wall[4] = {box(turn, -9, -9, -1, -x, 9, 1), box(turn, x, -9, -1, 9, 9, 1),
                              box(turn, -x, -9, -1, x, -y, 1), box(turn, -x, y, -1, x, 9, 1)};
@@ -104,7 +105,7 @@ static enum pir_turn_answer slot(double turn, double width, double length, uint3
 }
 
 /* The answer for a bar of a length in a bent corridor of width 2. */
-static enum pir_turn_answer corridor(double length, double turn, uint32_t arcs) {
+static pir_turn_plan_answer corridor(double length, double turn, uint32_t arcs) {
     pir_polytope *wall[3] = {box(0, -20, -20, -9, 0, 0, 9), box(0, -20, 2, -9, 9, 9, 9), box(0, 2, -20, -9, 9, 2, 9)};
     pir_turn_question q = question(arcs);
     const double low[3] = {-8, -8, -.1}, high[3] = {4, 4, .1}, from[3] = {-6, 1, 0}, to[3] = {1, -6, 0};
@@ -126,30 +127,30 @@ static double gap(void) {
 
 static void test_wide(void **state) {
     (void)state;
-    assert_int_equal(slot(0, 1.5, 4.5, 256), PIR_TURN_PATH);
-    assert_int_equal(slot(0, 1.01, 4.04, 1024), PIR_TURN_PATH);
-    assert_int_equal(slot(.3, 1 + gap(), 4 + 4 * gap(), 4096), PIR_TURN_PATH);
+    assert_int_equal(slot(0, 1.5, 4.5, 256), PIR_TURN_PLAN_PATH);
+    assert_int_equal(slot(0, 1.01, 4.04, 1024), PIR_TURN_PLAN_PATH);
+    assert_int_equal(slot(.3, 1 + gap(), 4 + 4 * gap(), 4096), PIR_TURN_PLAN_PATH);
 }
 
 static void test_tight(void **state) {
     (void)state;
-    assert_int_equal(slot(0, .7, 4.5, 256), PIR_TURN_NO_PATH);
-    assert_int_equal(slot(0, .99, 4.04, 1024), PIR_TURN_NO_PATH);
-    assert_int_equal(slot(.3, .99, 4.04, 1024), PIR_TURN_NO_PATH);
-    assert_int_equal(slot(.3, 1.01, 3.96, 1024), PIR_TURN_NO_PATH);
+    assert_int_equal(slot(0, .7, 4.5, 256), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(slot(0, .99, 4.04, 1024), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(slot(.3, .99, 4.04, 1024), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(slot(.3, 1.01, 3.96, 1024), PIR_TURN_PLAN_NO_PATH);
 }
 
 static void test_corridor(void **state) {
     (void)state;
     const double longest = 2 * (2 * sqrt(2) - 1);
-    assert_int_equal(corridor(longest * (1 - gap()), .75, 2048), PIR_TURN_PATH);
-    assert_int_equal(corridor(longest * (1 - gap()), .25, 2048), PIR_TURN_NO_PATH);
-    assert_int_equal(corridor(longest * (1 + gap()), .75, 2048), PIR_TURN_NO_PATH);
+    assert_int_equal(corridor(longest * (1 - gap()), .75, 2048), PIR_TURN_PLAN_PATH);
+    assert_int_equal(corridor(longest * (1 - gap()), .25, 2048), PIR_TURN_PLAN_NO_PATH);
+    assert_int_equal(corridor(longest * (1 + gap()), .75, 2048), PIR_TURN_PLAN_NO_PATH);
 }
 
 static void test_budget(void **state) {
     (void)state;
-    assert_int_equal(slot(.3, 1.01, 4.04, 8), PIR_TURN_UNKNOWN);
+    assert_int_equal(slot(.3, 1.01, 4.04, 8), PIR_TURN_PLAN_UNKNOWN);
 }
 
 /* Whether a slot lets the bar through: at some angle between them it fits. */
@@ -171,10 +172,10 @@ static void test_gates(void **state) {
     for (int i = 0; i < cases; i++) {
         const double turn = 3 * (rand() / (double)RAND_MAX), width = .8 + 2 * (rand() / (double)RAND_MAX);
         const double length = 3.2 + 1.5 * (rand() / (double)RAND_MAX);
-        const enum pir_turn_answer answer = slot(turn, width, length, 64);
+        const pir_turn_plan_answer answer = slot(turn, width, length, 64);
         count[answer]++;
-        if (answer != PIR_TURN_UNKNOWN)
-            assert_int_equal(answer == PIR_TURN_PATH, fits(width, length));
+        if (answer != PIR_TURN_PLAN_UNKNOWN)
+            assert_int_equal(answer == PIR_TURN_PLAN_PATH, fits(width, length));
     }
     printf("gates: %d unknown, %d paths, %d without\n", count[0], count[1], count[2]);
 }
@@ -183,7 +184,7 @@ static void test_gates(void **state) {
 int main(int count, char **words) {
     if (count == 2) {
         proof = words[1];
-        return slot(.3, .99, 4.04, 64) != PIR_TURN_NO_PATH;
+        return slot(.3, .99, 4.04, 64) != PIR_TURN_PLAN_NO_PATH;
     }
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide), cmocka_unit_test(test_tight),
                                        cmocka_unit_test(test_corridor), cmocka_unit_test(test_budget),

@@ -306,7 +306,7 @@ static bool pack_middle(void *data, uint32_t index, pir_bytes *block) {
 
 /* Notes how a middle was made; a robot that is too thin for outer pieces has no hubs. */
 static pir_status note_middle(pir_rigid_leaf *leaf, pir_status status) {
-    leaf->status = status == PIR_ERR_LIMIT ? PIR_OK : status;
+    leaf->status = status == PIR_ERR_LIMIT || status == PIR_PLAN_ERR_PARTS ? PIR_OK : status;
     return status;
 }
 
@@ -450,7 +450,7 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
     const uint32_t size = job->question->symmetries.count, count = (job->leaves - job->first_new) / size;
     const pir_tasks tasks = job->makers->tasks;
     const pir_block_work work = {job, count, leaf_number, make_leaf, pack_leaf, take_leaf, tell_leaves};
-    job->status = pir_blocks_make(job->makers, &work);
+    job->status = pir_rigid_told(pir_blocks_make(job->makers, &work));
     for (uint32_t i = job->first_new; i < job->leaves && job->status == PIR_OK; i += size) {
         job->status = job->leaf[i].status;
         job->kept += pir_inner_list_size(&job->leaf[i].list);

@@ -176,7 +176,8 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
     status = decide_with(t, &plan->result);
     const pir_rigid_result *r = &plan->result;
     plan->info = (pir_rigid_plan_info){r->answer, r->steps,       r->boxes,           r->divided,
-                                       r->parts,  t->robot.count, t->obstacles.count, t->question.symmetries.count};
+                                       r->parts,  t->robot.count, t->obstacles.count, t->question.symmetries.count,
+                                       r->end};
     return status;
 }
 

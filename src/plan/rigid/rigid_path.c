@@ -225,7 +225,7 @@ static pir_status push_ways(const pir_rigid_question *question, pir_pose **ret_s
     }
     pir_band_destroy(band);
     if (!*ret_step && !goes_on)
-        return PIR_ERR_LIMIT;
+        return PIR_PLAN_ERR_CALLER;
     return status == PIR_ERR_MEMORY ? status : PIR_OK;
 }
 

@@ -14,8 +14,8 @@ pir_status pir_rigid_path_make(const pir_rigid_job *job, pir_rigid_result *resul
 
 /*
  * Pushes ways to where the robot has room (plan/band): straight ones between the ends, each at one rotation. Leaves
- * `result` as it was where none comes free. Of several processes the first one does it. PIR_ERR_LIMIT where the caller
- * ends it.
+ * `result` as it was where none comes free. Of several processes the first one does it. PIR_PLAN_ERR_CALLER where the
+ * caller ends it.
  */
 pir_status pir_rigid_path_push(const pir_rigid_question *question, const pir_plan_ranks *ranks,
                                pir_rigid_result *result);

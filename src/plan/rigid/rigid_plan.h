@@ -27,8 +27,9 @@
  * symmetry k is leaf i ^ k, and all are divided at once. What their boxes have in common the first of them has: inner
  * parts, which leaves it touches, the links. The others have the images of these.
  *
- * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first. The
- * answer and what proves it are the same for any number of threads: boxes are made by themselves, and joined in order.
+ * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where boxes, parts or memory end first, or
+ * all boxes in doubt are the finest ones. The answer and what proves it are the same for any number of threads: boxes
+ * are made by themselves, and joined in order.
  */
 #ifndef PIR_PLAN_RIGID_RIGID_PLAN_H
 #define PIR_PLAN_RIGID_RIGID_PLAN_H
@@ -93,6 +94,7 @@ typedef struct pir_rigid_job {
     const pir_rigid_question *question;
     const pir_block_makers *makers;
     pir_status status;
+    pir_plan_end end; /* what kept boxes that are in doubt from being divided last */
     pir_rigid_leaf *leaf;
     uint32_t leaves, leaf_room, alive;
     uint32_t first_new;                /* leaves from here on were added last */
@@ -110,6 +112,7 @@ typedef struct pir_rigid_job {
 
 typedef struct pir_rigid_result {
     pir_turn_plan_answer answer;
+    pir_plan_end end;
     uint32_t boxes, divided; /* leaves at the end; boxes that were divided */
     uint64_t parts;
     pir_pose *step; /* of a path; from malloc */
@@ -123,6 +126,11 @@ static inline uint32_t pir_rigid_first(const pir_rigid_job *job, uint32_t leaf) 
 
 static inline uint32_t pir_rigid_image(const pir_rigid_job *job, uint32_t leaf) {
     return leaf & (job->question->symmetries.count - 1);
+}
+
+/* The status of blocks that were made: only the caller ends their making with a limit. */
+static inline pir_status pir_rigid_told(pir_status status) {
+    return status == PIR_ERR_LIMIT ? PIR_PLAN_ERR_CALLER : status;
 }
 
 /* Grows an array of the job's; false once its status is a failure. */

@@ -265,6 +265,7 @@ static void list_doubted(pir_rigid_job *job) {
 static uint32_t divide(pir_rigid_job *job) {
     uint32_t count = 0;
     pir_rigid_boxes_ask(job);
+    job->end = PIR_PLAN_END_FINEST;
     job->first_new = job->leaves;
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++)
         if (job->leaf[job->list[i]].is_divided) {
@@ -272,8 +273,11 @@ static uint32_t divide(pir_rigid_job *job) {
         } else if (asks_of(job, job->list[i]) > 0) {
             pir_rigid_box_refine(job, job->list[i]);
             count++;
-        } else if (job->leaf[job->list[i]].is_due &&
-                   job->alive + 7 * job->question->symmetries.count <= job->question->most_boxes) {
+        } else if (job->leaf[job->list[i]].is_due) {
+            if (job->alive + 7 * job->question->symmetries.count > job->question->most_boxes) {
+                job->end = PIR_PLAN_END_BOXES;
+                continue;
+            }
             pir_rigid_box_divide(job, job->list[i]);
             count++;
         }
@@ -351,13 +355,24 @@ static bool take_round(pir_rigid_job *job, FILE *proof, pir_rigid_result *result
     return job->status != PIR_OK || divide(job) == 0;
 }
 
+/* Notes what ended a question. Statuses that are its answer are no failures. */
+static pir_status note_end(pir_status status, pir_plan_end otherwise, pir_rigid_result *result) {
+    result->end = status == PIR_PLAN_ERR_PARTS              ? PIR_PLAN_END_PARTS
+                  : status == PIR_PLAN_ERR_CALLER           ? PIR_PLAN_END_CALLER
+                  : status == PIR_ERR_LIMIT                 ? PIR_PLAN_END_MEMORY
+                  : result->answer != PIR_TURN_PLAN_UNKNOWN ? PIR_PLAN_END_DECIDED
+                                                            : otherwise;
+    const bool is_limited = status == PIR_PLAN_ERR_PARTS || status == PIR_PLAN_ERR_CALLER || status == PIR_ERR_LIMIT;
+    return is_limited ? PIR_OK : status;
+}
+
 pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
                             pir_rigid_result *ret_result) {
     pir_rigid_job job = {.question = question, .makers = makers};
     *ret_result = (pir_rigid_result){0};
     const pir_status status = pir_rigid_path_push(question, makers->ranks, ret_result);
     if (status != PIR_OK || ret_result->answer == PIR_TURN_PLAN_PATH)
-        return status == PIR_ERR_LIMIT ? PIR_OK : status;
+        return note_end(status, PIR_PLAN_END_DECIDED, ret_result);
     pir_rigid_hubs_begin(&job);
     pir_rigid_boxes_begin(&job);
     while (job.status == PIR_OK && !take_round(&job, proof, ret_result))
@@ -367,5 +382,5 @@ pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_
     ret_result->parts = job.parts;
     pir_rigid_hubs_finish(&job);
     pir_rigid_boxes_finish(&job);
-    return job.status == PIR_ERR_LIMIT ? PIR_OK : job.status;
+    return note_end(job.status, job.end, ret_result);
 }

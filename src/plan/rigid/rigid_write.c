@@ -195,7 +195,7 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
         if (!job->leaf[*leaf].is_divided)
             texts->at[count++] = (struct box_text){.leaf = *leaf};
     const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text, tell_texts};
-    pir_status status = pir_blocks_make(job->makers, &work);
+    pir_status status = pir_rigid_told(pir_blocks_make(job->makers, &work));
     for (uint32_t i = 0; i < count; i++) {
         struct box_text *own = &texts->at[i];
         status = status == PIR_OK ? own->status : status;
