@@ -631,13 +631,15 @@ static bool on_progress(void *context, uint32_t made, uint32_t written) {
     return true;
 }
 
+#define FIRST_BOXES 32
+
 /* Has the time begin with the first boxes, and end with them. */
 static bool end_with_boxes(void *context, uint32_t made, uint32_t written) {
     int64_t *start = context;
     (void)written;
     if (made == 0)
         *start = clock_now();
-    return made == 0;
+    return made < FIRST_BOXES;
 }
 
 /* Makes the first boxes alone, and tells what as many as may be would take, were all like these. */

@@ -280,9 +280,9 @@ typedef struct pir_rigid_plan_options {
     const char *journal;
     const pir_plan_ranks *ranks; /**< NULL, or the processes that share the work; borrowed for the call */
     /**
-     * NULL, or told how far the call is, each time that some boxes are made or written: how many are made of those that
-     * there are now, and how many the proof has. False ends the call with an unknown answer. Called by the thread that
-     * made the call; with `ranks` all processes have to say the same.
+     * NULL, or told how far the call is: how many boxes are made of those that there are now, never fewer than before,
+     * and how many the proof has. Called by the thread that made the call, after each way that is pushed, and each box
+     * that this thread divides or writes. False ends the call with an unknown answer, with `ranks` in all processes.
      */
     bool (*progress)(void *context, uint32_t made, uint32_t written);
     void *context; /**< given to `progress` */

@@ -155,6 +155,21 @@ static void check_path(const struct gate *g, const pir_rigid_plan *plan, uint32_
     assert_int_equal(pir_rigid_plan_get_step(plan, steps, &pose[0]), PIR_ERR_ARGUMENT);
 }
 
+/* The most that was told, the most that may be new each time, and when the call is to end. */
+struct told {
+    uint32_t made, written, step, end, calls;
+};
+
+static bool on_progress(void *context, uint32_t made, uint32_t written) {
+    struct told *told = context;
+    told->calls++;
+    assert_true(made >= told->made && written >= told->written && written <= made);
+    assert_true(made - told->made <= told->step && written - told->written <= told->step);
+    told->made = made;
+    told->written = written;
+    return told->calls != told->end;
+}
+
 static pir_turn_plan_answer ask_as(const struct gate *g, bool asymmetric, uint32_t boxes, uint32_t threads, FILE *proof,
                                    pir_rigid_plan_info *ret_info) {
     pir_rigid_plan_options options = pir_rigid_plan_options_default();
@@ -163,8 +178,13 @@ static pir_turn_plan_answer ask_as(const struct gate *g, bool asymmetric, uint32
     options.boxes = boxes;
     options.threads = threads;
     options.proof = proof;
+    // one thread tells each box, with its images
+    struct told told = {.step = threads > 1 ? boxes : asymmetric ? 1 : 16};
+    options.progress = on_progress;
+    options.context = &told;
     assert_int_equal(pir_rigid_plan_create(&g->input, &options, &plan), PIR_OK);
     pir_rigid_plan_describe(plan, ret_info);
+    assert_true(told.made == ret_info->boxes || ret_info->answer != PIR_TURN_PLAN_NO_PATH);
     printf("answer %d, %u boxes, %llu parts, %u steps\n", (int)ret_info->answer, ret_info->boxes,
            (unsigned long long)ret_info->parts, ret_info->steps);
     assert_int_equal(ret_info->answer == PIR_TURN_PLAN_UNKNOWN, ret_info->end != PIR_PLAN_END_DECIDED);
@@ -278,20 +298,6 @@ static void test_budget(void **state) {
     release_gate(&g);
 }
 
-/* The most that was told, and when the call is to end. */
-struct told {
-    uint32_t made, written, end, calls;
-};
-
-static bool on_progress(void *context, uint32_t made, uint32_t written) {
-    struct told *told = context;
-    told->calls++;
-    assert_true(made >= told->made && written >= told->written && written <= made);
-    told->made = made;
-    told->written = written;
-    return told->calls != told->end;
-}
-
 /* Progress is told to the last box; where it says so the call ends as unknown, while boxes are made or written. */
 static void test_progress(void **state) {
     (void)state;
@@ -301,7 +307,7 @@ static void test_progress(void **state) {
     make_wall(2, 2, 17, &g);
     uint32_t calls = 0;
     for (uint32_t end = 0; end <= calls; end++) {
-        struct told told = {.end = end};
+        struct told told = {.step = 16, .end = end};
         pir_rigid_plan_options options = pir_rigid_plan_options_default();
         pir_rigid_plan *plan = NULL;
         options.progress = on_progress;

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Alone, each task takes or makes one block. With other processes there are rounds of so many blocks, each of three
- * exchanges: the first process gives what its journal has; each makes some of the rest, and gives those; and they say
- * whether what was made could be kept. So all know the same at every step.
+ * Alone, each task takes or makes one block. The thread that has the tasks tells how many are made after each of its
+ * own, so that it is told often whatever a block takes, and none waits for another. With other processes there are
+ * rounds of so many blocks, each of three exchanges: the first process gives what its journal has; each makes some of
+ * the rest, and gives those; and they say whether what was made could be kept. So all know the same at every step.
  */
 #include "plan/blocks/block_work.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* How many blocks are dealt in a round, and made before it is told how many are. */
+/* How many blocks are dealt in a round. */
 #define MOST_DEALT 1024
-#define MOST_MADE  256
 
 struct packed_block {
     uint32_t index;
@@ -24,9 +25,12 @@ struct packed_block {
 struct block_share {
     const pir_block_makers *makers;
     const pir_block_work *work;
-    atomic_int failure; /* of keeping what is made: a status */
+    atomic_int failure; /* a status: of keeping what is made, or of telling, after which no block is made */
+    atomic_uint done;   /* blocks that are made; with other processes their own ones of the round are left out */
+    uint32_t told;
+    pthread_t teller;
     /* with other processes: blocks of the round that this one looks for or makes, their bytes and statuses */
-    uint32_t *index, count, first; /* alone: the first of some that are made before it is told */
+    uint32_t *index, count;
     pir_bytes *block;
     pir_status *status;
 };
@@ -36,10 +40,32 @@ static void fail(struct block_share *share, pir_status status) {
         atomic_store(&share->failure, (int)status);
 }
 
-static void make_one(void *context, uint32_t i) {
-    struct block_share *share = context;
-    const uint32_t index = share->first + i;
+static void tell(struct block_share *share, uint32_t done) {
     const pir_block_work *work = share->work;
+    share->told = done;
+    if (work->tell && !work->tell(work->data, done))
+        fail(share, PIR_ERR_LIMIT);
+}
+
+/* Counts a block; the thread that has the tasks tells how many there are. */
+static void count_one(struct block_share *share) {
+    const uint32_t done = atomic_fetch_add(&share->done, 1) + 1;
+    if (pthread_equal(pthread_self(), share->teller))
+        tell(share, done);
+}
+
+/* Tells that blocks are made where nothing has failed, once; the failure. */
+static pir_status end_telling(struct block_share *share, uint32_t done) {
+    if (atomic_load(&share->failure) == PIR_OK && share->told < done)
+        tell(share, done);
+    return (pir_status)atomic_load(&share->failure);
+}
+
+static void make_one(void *context, uint32_t index) {
+    struct block_share *share = context;
+    const pir_block_work *work = share->work;
+    if (atomic_load(&share->failure) != PIR_OK)
+        return;
     const pir_allocator a = pir_allocator_or_default(NULL);
     pir_block_journal *journal = work->number ? share->makers->journal : NULL;
     const uint64_t number = journal ? work->number(work->data, index) : 0;
@@ -52,10 +78,7 @@ static void make_one(void *context, uint32_t i) {
              work->pack(work->data, index, &block) ? pir_block_journal_add(journal, number, &block) : PIR_ERR_MEMORY);
     }
     pir_bytes_finish(&block, &a);
-}
-
-static pir_status tell(const pir_block_work *work, uint32_t done) {
-    return !work->tell || work->tell(work->data, done) ? PIR_OK : PIR_ERR_LIMIT;
+    count_one(share);
 }
 
 /* --- with other processes --- */
@@ -73,9 +96,13 @@ static void find_one(void *context, uint32_t i) {
 static void make_dealt(void *context, uint32_t i) {
     struct block_share *share = context;
     const pir_block_work *work = share->work;
+    share->status[i] = PIR_ERR_EMPTY;
+    if (atomic_load(&share->failure) != PIR_OK)
+        return;
     share->status[i] = work->make(work->data, share->index[i]);
     if (share->status[i] == PIR_OK && !work->pack(work->data, share->index[i], &share->block[i]))
         fail(share, PIR_ERR_MEMORY);
+    count_one(share);
 }
 
 static bool append(pir_bytes *to, const void *data, size_t size) {
@@ -183,7 +210,7 @@ static pir_status make_round(struct block_share *share, uint32_t first, uint32_t
     if (status == PIR_OK)
         status = take_all(share, &all, first, true, is_taken);
     if (status == PIR_OK)
-        status = (pir_status)atomic_load(&share->failure);
+        status = end_telling(share, first + count);
     return agree(share->makers, status);
 }
 
@@ -195,10 +222,8 @@ static pir_status make_dealt_blocks(struct block_share *share) {
     share->status = calloc(most + 1, sizeof *share->status);
     pir_status status = share->index && share->block && share->status ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < all && status == PIR_OK; i += MOST_DEALT) {
-        const uint32_t count = all - i < MOST_DEALT ? all - i : MOST_DEALT;
-        status = make_round(share, i, count);
-        if (status == PIR_OK)
-            status = tell(share->work, i + count);
+        atomic_store(&share->done, i);
+        status = make_round(share, i, all - i < MOST_DEALT ? all - i : MOST_DEALT);
     }
     for (uint32_t i = 0; i < most && share->block; i++)
         pir_bytes_finish(&share->block[i], &a);
@@ -208,22 +233,16 @@ static pir_status make_dealt_blocks(struct block_share *share) {
     return status;
 }
 
+static pir_status make_own_blocks(struct block_share *share) {
+    const pir_tasks tasks = share->makers->tasks;
+    tasks.start(tasks.context, make_one, share, share->work->count);
+    tasks.finish(tasks.context);
+    return end_telling(share, share->work->count);
+}
+
 pir_status pir_blocks_make(const pir_block_makers *makers, const pir_block_work *work) {
-    struct block_share share = {.makers = makers, .work = work};
+    struct block_share share = {.makers = makers, .work = work, .teller = pthread_self()};
     atomic_init(&share.failure, PIR_OK);
-    if (makers->ranks && makers->ranks->count > 1)
-        return make_dealt_blocks(&share);
-    const uint32_t most = work->tell ? MOST_MADE : UINT32_MAX;
-    pir_status status = PIR_OK;
-    for (uint32_t left = work->count; left > 0 && status == PIR_OK;) {
-        const uint32_t count = left < most ? left : most;
-        makers->tasks.start(makers->tasks.context, make_one, &share, count);
-        makers->tasks.finish(makers->tasks.context);
-        share.first += count;
-        left -= count;
-        status = (pir_status)atomic_load(&share.failure);
-        if (status == PIR_OK)
-            status = tell(work, share.first);
-    }
-    return status;
+    atomic_init(&share.done, 0);
+    return makers->ranks && makers->ranks->count > 1 ? make_dealt_blocks(&share) : make_own_blocks(&share);
 }

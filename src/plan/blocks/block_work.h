@@ -31,7 +31,11 @@ typedef struct pir_block_work {
     bool (*pack)(void *data, uint32_t index, pir_bytes *block);
     /* Takes one that was made with a status: of bytes, which may be anything. False where they are no block. */
     bool (*take)(void *data, uint32_t index, pir_status status, const pir_bytes *block);
-    bool (*tell)(void *data, uint32_t done); /* NULL, or told how many are made; false ends the work */
+    /*
+     * NULL, or told by the thread that asks for the work, after each block that it makes itself and in the end, how
+     * many are made: more each time. Of several processes false in one ends the work of all.
+     */
+    bool (*tell)(void *data, uint32_t done);
 } pir_block_work;
 
 /*

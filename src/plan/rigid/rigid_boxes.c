@@ -237,11 +237,21 @@ static bool pack_leaf(void *data, uint32_t index, pir_bytes *block) {
     return pir_inner_list_pack(&leaf->list, block) && pir_box_parts_pack(&leaf->inner, block);
 }
 
-static bool tell_leaves(void *data, uint32_t done) {
-    const pir_rigid_job *job = data;
+/* Tells how many boxes are made: those that are divided count until as many stand for them. */
+static bool tell_made(pir_rigid_job *job, uint32_t made) {
     const pir_rigid_question *q = job->question;
-    const uint32_t left = job->leaves - job->first_new - done * q->symmetries.count;
-    return !q->progress || q->progress(q->context, job->alive - left, 0);
+    job->told = made > job->told ? made : job->told;
+    return !q->progress || q->progress(q->context, job->told, 0);
+}
+
+static bool tell_leaves(void *data, uint32_t done) {
+    pir_rigid_job *job = data;
+    return tell_made(job, job->alive + done * job->question->symmetries.count - (job->leaves - job->first_new));
+}
+
+static bool tell_middles(void *data, uint32_t done) {
+    (void)done;
+    return tell_made(data, 0);
 }
 
 /* Takes a list and parts of bytes; false where they are none, or of what was asked otherwise. */
@@ -467,8 +477,8 @@ void pir_rigid_boxes_make(pir_rigid_job *job) {
 
 /* Divides the translations at the middles of first leaves that the job lists. */
 static void make_middles(pir_rigid_job *job) {
-    const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle, NULL};
-    job->status = pir_blocks_make(job->makers, &work);
+    const pir_block_work work = {job, job->listed, middle_number, fill_leaf, pack_middle, take_middle, tell_middles};
+    job->status = pir_rigid_told(pir_blocks_make(job->makers, &work));
     for (uint32_t i = 0; i < job->listed && job->status == PIR_OK; i++) {
         job->status = job->leaf[job->list[i]].status;
         count_parts(job, &job->leaf[job->list[i]].middle);

@@ -97,6 +97,7 @@ typedef struct pir_rigid_job {
     pir_plan_end end; /* what kept boxes that are in doubt from being divided last */
     pir_rigid_leaf *leaf;
     uint32_t leaves, leaf_room, alive;
+    uint32_t told;                     /* the most leaves that the caller was told are made */
     uint32_t first_new;                /* leaves from here on were added last */
     uint32_t *list, listed, list_room; /* leaves that are doubted */
     uint32_t nodes;                    /* parts of all leaves that are not divided */

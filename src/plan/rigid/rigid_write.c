@@ -182,8 +182,8 @@ static bool take_text(void *data, uint32_t index, pir_status status, const pir_b
 static bool tell_texts(void *data, uint32_t done) {
     struct box_texts *texts = data;
     const pir_rigid_question *q = texts->job->question;
-    texts->written += done * q->symmetries.count;
-    return !q->progress || q->progress(q->context, texts->job->alive, texts->written);
+    const uint32_t written = texts->written + done * q->symmetries.count;
+    return !q->progress || q->progress(q->context, texts->job->alive, written);
 }
 
 /* Writes boxes, from one on: as many as are written at a time. */
@@ -196,6 +196,7 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
             texts->at[count++] = (struct box_text){.leaf = *leaf};
     const pir_block_work work = {texts, count, NULL, make_text, pack_text, take_text, tell_texts};
     pir_status status = pir_rigid_told(pir_blocks_make(job->makers, &work));
+    texts->written += count * job->question->symmetries.count;
     for (uint32_t i = 0; i < count; i++) {
         struct box_text *own = &texts->at[i];
         status = status == PIR_OK ? own->status : status;
