@@ -58,11 +58,6 @@ static void box_of(const pir_polytope *piece, pir_vec3 low, double ret_low[3], d
 
 /* Whether two pieces have no point in common, one of them at a translation. */
 static bool are_apart(pir_rigid_job *job, pir_polytope *piece, pir_vec3 at, pir_polytope *obstacle) {
-    double low[2][3], high[2][3];
-    box_of(piece, at, low[0], high[0]);
-    box_of(obstacle, (pir_vec3){0, 0, 0}, low[1], high[1]);
-    if (!pir_plan_boxes_meet(low[0], high[0], low[1], high[1]))
-        return true;
     pir_pair *pair = NULL;
     pir_query_result result = {0};
     pir_pair_input input = pir_pair_input_default();
@@ -81,10 +76,15 @@ static bool is_free(pir_rigid_job *job, struct rigid_arc *arc, const double at[3
     const pir_plan_pieces *obstacles = job->question->obstacles;
     if (!make_arc(job, arc))
         return false;
-    for (uint32_t i = 0; i < arc->outer.count; i++)
+    for (uint32_t i = 0; i < arc->outer.count; i++) {
+        const pir_vec3 x = {at[0], at[1], at[2]};
+        double low[3], high[3];
+        box_of(arc->outer.at[i], x, low, high);
         for (uint32_t k = 0; k < obstacles->count; k++)
-            if (!are_apart(job, arc->outer.at[i], (pir_vec3){at[0], at[1], at[2]}, obstacles->at[k]))
+            if (pir_plan_boxes_meet(low, high, job->obstacle_box[k][0], job->obstacle_box[k][1]) &&
+                !are_apart(job, arc->outer.at[i], x, obstacles->at[k]))
                 return false;
+    }
     return true;
 }
 
@@ -172,25 +172,73 @@ static bool part_has(const pir_rigid_leaf *leaf, uint32_t part, const double at[
     return false;
 }
 
-/* Translations that parts of two full leaves have in common. */
-static uint32_t list_common(const pir_rigid_leaf *own, uint32_t part, const pir_rigid_leaf *other, uint32_t other_part,
-                            double (*tries)[3]) {
+/* The cells of a division by their parts, in order: those of a part begin at its first one. Boxes have the parts. */
+struct part_list {
+    const pir_box_parts *of;
+    uint32_t *first, *cell;
+    double (*box)[2][3];
+};
+
+static void close_list(struct part_list *list) {
+    free(list->first);
+    free(list->cell);
+    free(list->box);
+}
+
+static void add_to_box(const pir_box_cell *cell, double box[2][3]) {
+    for (int k = 0; k < 3; k++) {
+        box[0][k] = fmin(box[0][k], cell->low[k]);
+        box[1][k] = fmax(box[1][k], cell->high[k]);
+    }
+}
+
+static bool open_list(pir_rigid_job *job, const pir_box_parts *parts, struct part_list *list) {
+    *list = (struct part_list){parts, calloc((size_t)parts->parts + 2, sizeof *list->first),
+                               calloc((size_t)parts->cells + 1, sizeof *list->cell),
+                               calloc((size_t)parts->parts + 1, sizeof *list->box)};
+    if (!list->first || !list->cell || !list->box) {
+        job->status = PIR_ERR_MEMORY;
+        return false;
+    }
+    for (uint32_t p = 0; p < parts->parts; p++)
+        for (int k = 0; k < 3; k++) {
+            list->box[p][0][k] = INFINITY;
+            list->box[p][1][k] = -INFINITY;
+        }
+    for (uint32_t i = 0; i < parts->cells; i++) {
+        list->first[parts->cell[i].part + 2]++;
+        add_to_box(&parts->cell[i], list->box[parts->cell[i].part]);
+    }
+    for (uint32_t p = 2; p < parts->parts + 2; p++)
+        list->first[p] += list->first[p - 1];
+    for (uint32_t i = 0; i < parts->cells; i++)
+        list->cell[list->first[parts->cell[i].part + 1]++] = i;
+    return true;
+}
+
+/* Translations that parts of two divisions have in common. */
+static uint32_t list_common(const struct part_list *own, uint32_t part, const struct part_list *other,
+                            uint32_t other_part, double (*tries)[3]) {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < own->middle.cells; i++)
-        for (uint32_t k = 0; k < other->middle.cells && own->middle.cell[i].part == part && count < MOST_TRIES; k++) {
-            const pir_box_cell *a = &own->middle.cell[i], *b = &other->middle.cell[k];
-            if (b->part != other_part || !pir_plan_boxes_meet(a->low, a->high, b->low, b->high))
+    double(*of)[3] = own->box[part], (*of_other)[3] = other->box[other_part];
+    if (!pir_plan_boxes_meet(of[0], of[1], of_other[0], of_other[1]))
+        return 0;
+    for (uint32_t i = own->first[part]; i < own->first[part + 1]; i++)
+        for (uint32_t k = other->first[other_part]; k < other->first[other_part + 1] && count < MOST_TRIES; k++) {
+            const pir_box_cell *a = &own->of->cell[own->cell[i]], *b = &other->of->cell[other->cell[k]];
+            if (!pir_plan_boxes_meet(a->low, a->high, b->low, b->high))
                 continue;
             const uint32_t half = count + (MOST_TRIES - count + 1) / 2;
-            count = list_tries(&own->middle, a, &other->middle, b, count, tries);
+            count = list_tries(own->of, a, other->of, b, count, tries);
             count = count > half ? half : count;
-            count = list_tries(&other->middle, b, &own->middle, a, count, tries);
+            count = list_tries(other->of, b, own->of, a, count, tries);
         }
     return count;
 }
 
 /* Tries to join two hubs of two leaves, each by its place in the list of its leaf. */
-static void join_hubs(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t hub[2], struct rigid_arc *arc) {
+static void join_hubs(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t hub[2],
+                      const struct part_list middle[2], struct rigid_arc *arc) {
     const pir_rigid_leaf *own = &job->leaf[leaf[0]], *other = &job->leaf[leaf[1]];
     const bool is_part[2] = {own->is_full && hub[0] < own->middle.parts,
                              other->is_full && hub[1] < other->middle.parts};
@@ -198,7 +246,7 @@ static void join_hubs(pir_rigid_job *job, const uint32_t leaf[2], const uint32_t
     double tries[MOST_TRIES][3];
     uint32_t count = 0;
     if (is_part[0] && is_part[1])
-        count = list_common(own, hub[0], other, hub[1], tries);
+        count = list_common(&middle[0], hub[0], &middle[1], hub[1], tries);
     else if (is_part[0] && part_has(own, hub[0], other->hub[hub[1]].at))
         memcpy(tries[count++], other->hub[hub[1]].at, sizeof *tries);
     else if (is_part[1] && part_has(other, hub[1], own->hub[hub[0]].at))
@@ -216,12 +264,17 @@ static struct rigid_arc arc_between(const pir_rigid_leaf *a, const pir_rigid_lea
 
 static void join_leaves(pir_rigid_job *job, uint32_t a, uint32_t b) {
     struct rigid_arc arc = arc_between(&job->leaf[a], &job->leaf[b]);
-    for (uint32_t i = 0; i < job->leaf[a].hubs; i++)
+    struct part_list middle[2] = {{0}};
+    const bool good =
+        open_list(job, &job->leaf[a].middle, &middle[0]) && open_list(job, &job->leaf[b].middle, &middle[1]);
+    for (uint32_t i = 0; i < job->leaf[a].hubs && good; i++)
         for (uint32_t k = 0; k < job->leaf[b].hubs && job->status == PIR_OK; k++) {
             const uint32_t leaf[2] = {a, b}, hub[2] = {i, k};
             if (!are_joined(job, job->leaf[a].hub[i].node, job->leaf[b].hub[k].node))
-                join_hubs(job, leaf, hub, &arc);
+                join_hubs(job, leaf, hub, middle, &arc);
         }
+    close_list(&middle[0]);
+    close_list(&middle[1]);
     pir_plan_pieces_over_free(&arc.outer);
 }
 
@@ -260,6 +313,12 @@ static void join_end(pir_rigid_job *job, uint32_t end, uint32_t leaf) {
 }
 
 void pir_rigid_hubs_begin(pir_rigid_job *job) {
+    const pir_plan_pieces *obstacles = job->question->obstacles;
+    job->obstacle_box = calloc((size_t)obstacles->count + 1, sizeof *job->obstacle_box);
+    if (!job->obstacle_box)
+        job->status = PIR_ERR_MEMORY;
+    for (uint32_t i = 0; i < obstacles->count && job->status == PIR_OK; i++)
+        box_of(obstacles->at[i], (pir_vec3){0, 0, 0}, job->obstacle_box[i][0], job->obstacle_box[i][1]);
     for (uint32_t i = 0; i < PIR_RIGID_ENDS; i++)
         if (!add_number(job))
             return;
@@ -321,6 +380,7 @@ void pir_rigid_hubs_join(pir_rigid_job *job) {
 
 void pir_rigid_hubs_finish(pir_rigid_job *job) {
     pir_workspace_destroy(job->workspace);
+    free(job->obstacle_box);
     free(job->hub_root);
     free(job->turn);
 }

@@ -104,6 +104,7 @@ typedef struct pir_rigid_job {
     uint32_t *root;                    /* of nodes */
     uint32_t root_room;
     uint32_t hubs, *hub_root, hub_room;
+    double (*obstacle_box)[2][3]; /* of each obstacle's piece: a least and a greatest corner */
     pir_rigid_turn *turn;
     uint32_t turns, turn_room;
     uint64_t parts; /* of all divisions */
