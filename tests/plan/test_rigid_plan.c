@@ -389,6 +389,64 @@ static void test_symmetric(void **state) {
     }
 }
 
+/* The proof, or the path, that is told; from malloc. */
+static char *told_of(const pir_rigid_plan_input *input, bool is_proof, size_t *ret_size, uint32_t *ret_pieces) {
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan *plan = NULL;
+    pir_rigid_plan_info info;
+    char *text = NULL;
+    options.boxes = 200;
+    options.proof = open_memstream(&text, ret_size);
+    assert_int_equal(pir_rigid_plan_create(input, &options, &plan), PIR_OK);
+    pir_rigid_plan_describe(plan, &info);
+    assert_int_equal(info.answer, is_proof ? PIR_TURN_PLAN_NO_PATH : PIR_TURN_PLAN_PATH);
+    for (uint32_t i = 0; i < info.steps; i++) {
+        pir_pose pose;
+        assert_int_equal(pir_rigid_plan_get_step(plan, i, &pose), PIR_OK);
+        fwrite(&pose, sizeof pose, 1, options.proof);
+    }
+    fclose(options.proof);
+    pir_rigid_plan_destroy(plan);
+    *ret_pieces = info.obstacle_pieces;
+    return text;
+}
+
+/* Obstacles that the robot reaches nowhere change neither a proof nor a path; one that it just reaches may. */
+static void test_far(void **state) {
+    (void)state;
+    for (int is_proof = 0; is_proof < 2; is_proof++) {
+        struct gate g;
+        const double r = is_proof ? 16 : .5;
+        g.robot = make_tetrahedron(r, false, &g.shape);
+        make_wall(is_proof ? 2 : 3, is_proof ? 2 : 3, r + 1, &g);
+        size_t size[3];
+        uint32_t pieces[3];
+        char *told[3];
+        const pir_solid *wall[5] = {g.wall[0], g.wall[1], g.wall[2], g.wall[3]};
+        pir_rigid_plan_input in = g.input;
+        in.obstacles = wall;
+        told[0] = told_of(&in, is_proof, &size[0], &pieces[0]);
+        for (int k = 1; k < 3; k++) {
+            // corners of the robot are at a radius r from its origin, but for rounding
+            const double x = in.high.x + r + (k == 1 ? 1e-6 : -1e-6);
+            pir_polytope *shape = NULL;
+            pir_solid *far = make_box((pir_vec3){x, -1, -1}, (pir_vec3){x + 9, 1, 1}, &shape);
+            wall[4] = far;
+            in.obstacle_count = 5;
+            told[k] = told_of(&in, is_proof, &size[k], &pieces[k]);
+            pir_polytope_release(shape);
+            pir_solid_release(far);
+        }
+        assert_true(pieces[1] == pieces[0] + 1 && pieces[2] == pieces[1]);
+        assert_true(size[0] == size[1] && is_same(told[0], told[1], size[0]));
+        if (is_proof) // the piece is in it
+            assert_true(size[0] != size[2]);
+        for (int k = 0; k < 3; k++)
+            free(told[k]);
+        release_gate(&g);
+    }
+}
+
 static pir_status status_of(const pir_rigid_plan_input *input, const pir_rigid_plan_options *options) {
     pir_rigid_plan *plan = NULL;
     const pir_status status = pir_rigid_plan_create(input, options, &plan);
@@ -482,11 +540,11 @@ static int write_proof(const char *path, bool is_box) {
 int main(int count, char **words) {
     if (count > 1)
         return write_proof(words[1], count > 2);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),
-                                       cmocka_unit_test(test_window),       cmocka_unit_test(test_tight),
-                                       cmocka_unit_test(test_gates),        cmocka_unit_test(test_budget),
-                                       cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),
-                                       cmocka_unit_test(test_progress),     cmocka_unit_test(test_symmetric)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),  cmocka_unit_test(test_window),
+        cmocka_unit_test(test_tight),        cmocka_unit_test(test_gates), cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),   cmocka_unit_test(test_progress),
+        cmocka_unit_test(test_symmetric),    cmocka_unit_test(test_far)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);

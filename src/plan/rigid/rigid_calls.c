@@ -23,7 +23,7 @@ struct rigid_call {
     const pir_rigid_plan_input *input;
     pir_rigid_plan_options how;
     pir_plan_space space;
-    pir_plan_pieces robot, obstacles, wide;
+    pir_plan_pieces robot, obstacles, wide; /* of the obstacles those that the robot can reach */
     pir_rigid_question question;
 };
 
@@ -85,6 +85,45 @@ static void fill_question(struct rigid_call *t) {
                                        .memory = t->how.memory,
                                        .progress = t->how.progress,
                                        .context = t->how.context};
+}
+
+/* How far the robot reaches from its origin, or more: corners are rounded, and so is their length. */
+static double reach_of(const pir_plan_pieces *robot) {
+    double most = 0;
+    for (uint32_t i = 0; i < robot->count; i++)
+        for (uint32_t v = 0; v < pir_polytope_vertex_count(robot->at[i]); v++) {
+            const pir_vec3 x = pir_polytope_vertex(robot->at[i], v);
+            most = fmax(most, hypot(x.x, hypot(x.y, x.z)));
+        }
+    return most * (1 + 0x1p-40) + PIR_PLAN_TINY;
+}
+
+/* How far it is from one number up to another, or less: both are rounded. */
+static double gap_between(double from, double to) {
+    return to - from - (fabs(from) + fabs(to)) * 0x1p-40;
+}
+
+/* Whether a piece is beyond the reach of translations within the bounds, at every rotation. */
+static bool is_beyond(const pir_rigid_plan_input *in, double reach, const pir_polytope *piece) {
+    pir_vec3 low, high;
+    pir_polytope_bounds(piece, &low, &high);
+    return gap_between(in->high.x, low.x) > reach || gap_between(in->high.y, low.y) > reach ||
+           gap_between(in->high.z, low.z) > reach || gap_between(high.x, in->low.x) > reach ||
+           gap_between(high.y, in->low.y) > reach || gap_between(high.z, in->low.z) > reach;
+}
+
+/* Leaves out what the robot cannot reach, but for one piece: an obstacle there is. */
+static void leave_out_far(struct rigid_call *t) {
+    const double reach = reach_of(&t->robot);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < t->obstacles.count; i++)
+        if ((i + 1 < t->obstacles.count || kept > 0) && is_beyond(t->input, reach, t->obstacles.at[i])) {
+            pir_polytope_release(t->obstacles.at[i]);
+        } else {
+            t->obstacles.body[kept] = t->obstacles.body[i];
+            t->obstacles.at[kept++] = t->obstacles.at[i];
+        }
+    t->obstacles.count = kept;
 }
 
 /* Whether both ends are free. */
@@ -164,6 +203,8 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
             pir_plan_pieces_add(&t->space, in->obstacles, in->obstacle_count, "obstacle", t->how.report, &t->obstacles);
     if (status != PIR_OK)
         return status;
+    const uint32_t obstacle_pieces = t->obstacles.count;
+    leave_out_far(t);
     fill_question(t);
     status = check_ends(t);
     if (status == PIR_OK)
@@ -175,8 +216,8 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
         t->question.symmetries = pir_symmetries_of(&t->robot, &t->wide, t->question.low, t->question.high);
     status = decide_with(t, &plan->result);
     const pir_rigid_result *r = &plan->result;
-    plan->info = (pir_rigid_plan_info){r->answer, r->steps,       r->boxes,           r->divided,
-                                       r->parts,  t->robot.count, t->obstacles.count, t->question.symmetries.count,
+    plan->info = (pir_rigid_plan_info){r->answer, r->steps,       r->boxes,        r->divided,
+                                       r->parts,  t->robot.count, obstacle_pieces, t->question.symmetries.count,
                                        r->end};
     return status;
 }
