@@ -65,10 +65,20 @@ static uint32_t add_node(struct divider *d) {
     return tree->node_count++;
 }
 
+/* Whether a corner of a sum is strictly inside a cell: then the sum cuts it, for the corner is on its boundary. */
+static bool has_corner(struct divider *d, const pir_plan_cell *cell, const pir_plan_sum *sum) {
+    bool has = cell->dimension == 3 && sum->corners > 0;
+    for (uint32_t h = 0; h < cell->halves && has; h++)
+        has = pir_plan_side(d->space, cell->half[h], d->sums->corner[sum->corner]) < 0;
+    return has;
+}
+
 /* How a sum meets a cell, as far as planes of both tell: a sum that is apart may be said to cut. */
 static enum sum_meeting meeting_of(struct divider *d, const pir_plan_cell *cell, const pir_plan_sum *sum) {
     if (!pir_plan_boxes_meet(cell->low, cell->high, sum->low, sum->high))
         return APART;
+    if (has_corner(d, cell, sum))
+        return CUT;
     bool covers = true;
     for (uint32_t i = 0; i < sum->halves; i++) {
         int least, most;
