@@ -5,7 +5,7 @@
 Usage: motions.py FILE   the pieces in FILE are taken as the bodies, which are closed
 
 Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on meets.py, which says when two
-pieces meet throughout a box, turns.py, plan.py and cells.py beside it.
+pieces meet throughout a box, turns.py, plan.py and cells.py beside it. openings.py has proofs by openings of planes.
 
 The argument: boxes cover all rotations. Each box has sums, of a piece P of the robot and a piece O of the obstacles
 each: polytopes of translations at which P meets O at every rotation of the box, so they are blocked. The tree of the
@@ -28,6 +28,7 @@ from math import lcm
 import turns
 from cells import Cell, integers
 from meets import Pair, Turned, Whole, form
+from openings import Openings
 from plan import Piece, Plan, cross, dot, need, sub, vector
 
 ONE = 1 << 20
@@ -205,7 +206,7 @@ class Motions(Plan):
 
 
 def main(path):
-    return turns.main(path, Motions)
+    return turns.main(path, lambda told: (Openings if "openings" in told else Motions)(told))
 
 
 if __name__ == "__main__":
