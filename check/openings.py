@@ -191,10 +191,14 @@ class Openings:
                 need(side * self.plane.above(place) > 0, "an end of the motion is not on its side of the plane")
 
     def check_cover(self):
-        """Where the point can cross the plane, there is an obstacle or a hole."""
+        """Where the point can cross the plane there is an obstacle or a hole."""
         wide = sum(abs(x) for x in self.point)
         corners = product(*((a - wide, b + wide) for a, b in zip(self.low, self.high)))
-        rest = [self.plane.section(list(corners))]
+        self.check_holes(self.plane.section(list(corners)))
+
+    def check_holes(self, whole):
+        """Obstacles and holes have all of a polygon of the plane, and no edge of a hole is open."""
+        rest = [whole]
         for polygon in self.sections + [part for hole in self.holes for part in hole.parts]:
             rest = without(rest, polygon)
         need(not rest, "the holes leave a part of the plane out")
