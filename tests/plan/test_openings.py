@@ -57,7 +57,7 @@ def spread(told, points, u, s):
     for weight, *ends in told:
         a, b = ([x + (y - x) / 2 ** e for x, y in zip(points[i], points[k])] for i, k, e in ends)
         g, h = (sum(x * y for x, y in zip(u, p)) - s for p in (a, b))
-        if g > 1e-12 or h < -1e-12:
+        if g > 1e-12 or h < -1e-12 or h - g < 1e-12:
             return None
         met.append((weight / total, [(x * h - y * g) / (h - g) for x, y in zip(a, b)]))
     middle = [sum(w * p[k] for w, p in met) for k in range(3)]
