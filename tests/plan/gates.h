@@ -15,16 +15,20 @@ static inline pir_solid *solid_of(const pir_vec3 *p, size_t points, const uint32
     return solid;
 }
 
-/* A box; as a polytope as well where there is a place for it. */
-static inline pir_solid *make_box(pir_vec3 low, pir_vec3 high, pir_polytope **ret_shape) {
+/* A body as a box is, of corners that bits number; as a polytope as well where there is a place for it. */
+static inline pir_solid *make_block(const pir_vec3 p[8], pir_polytope **ret_shape) {
     static const uint32_t sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
     static const uint32_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
-    pir_vec3 p[8];
-    for (int i = 0; i < 8; i++)
-        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
     if (ret_shape)
         assert_int_equal(pir_polytope_create(p, 8, NULL, ret_shape), PIR_OK);
     return solid_of(p, 8, starts, sides, 6);
+}
+
+static inline pir_solid *make_box(pir_vec3 low, pir_vec3 high, pir_polytope **ret_shape) {
+    pir_vec3 p[8];
+    for (int i = 0; i < 8; i++)
+        p[i] = (pir_vec3){i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+    return make_block(p, ret_shape);
 }
 
 /* A tetrahedron of four vertices, facets to the outside. */

@@ -12,13 +12,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define MOST_WALLS 96
+#define MOST_WALLS  96
+#define MOST_PIECES 10
 
 /* A gate, or a question that is changed. */
 struct gate {
-    pir_solid *robot, *wall[MOST_WALLS];
-    pir_polytope *shape, *plate[MOST_WALLS]; /* the same as polytopes */
-    int walls, plates;
+    pir_solid *robot[MOST_PIECES], *wall[MOST_WALLS];
+    pir_polytope *shape[MOST_PIECES], *plate[MOST_WALLS]; /* the same as polytopes */
+    int shapes, walls, plates;                            /* a robot is one solid, or as many as shapes */
     pir_rigid_plan_input input;
 };
 
@@ -45,8 +46,9 @@ static pir_solid *make_octahedron(double radius, pir_polytope **ret_shape) {
 
 /* A plate about the plane z = 0 with a window along the axes; the robot goes from under it to over it. */
 static void make_wall(double width, double length, double way, struct gate *g) {
+    g->shapes = 1;
     g->walls = g->plates = 4;
-    g->input = make_gate_of(width, length, way, &g->robot, g->wall, g->plate);
+    g->input = make_gate_of(width, length, way, g->robot, g->wall, g->plate);
 }
 
 /* A thin round plate about a window of 96 corners on a circle; the tetrahedron of edge 1 before it. */
@@ -67,7 +69,8 @@ static void make_window(double diameter, struct gate *g) {
         starts[i] = 4 * i;
     }
     starts[4 * N] = 16 * N;
-    g->robot = make_tetrahedron(sqrt(3. / 8), false, &g->shape);
+    g->shapes = 1;
+    g->robot[0] = make_tetrahedron(sqrt(3. / 8), false, &g->shape[0]);
     g->wall[0] = solid_of(p, 4 * N, starts, sides, 4 * N);
     g->walls = 1;
     g->plates = N;
@@ -77,7 +80,7 @@ static void make_window(double diameter, struct gate *g) {
             block[k] = p[(4 * i + k) % (4 * N)];
         assert_int_equal(pir_polytope_create(block, 8, NULL, &g->plate[i]), PIR_OK);
     }
-    g->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)&g->robot,
+    g->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)g->robot,
                                       .robot_count = 1,
                                       .obstacles = (const pir_solid *const *)g->wall,
                                       .obstacle_count = 1,
@@ -87,22 +90,63 @@ static void make_window(double diameter, struct gate *g) {
                                       .to = {{0, 0, 0, 1}, {0, 0, 1.5}}};
 }
 
+/* A vector of a length along another one, in multiples of a grid, on which what is added has no rounding. */
+static pir_vec3 along(pir_vec3 v, double length) {
+    const double scale = 65536 * length / sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+    return (pir_vec3){nearbyint(scale * v.x) / 65536, nearbyint(scale * v.y) / 65536, nearbyint(scale * v.z) / 65536};
+}
+
+/* Two tubes of ten square pieces, bent to the letter alpha, that hang in each other; `half` of a tube's width. */
+static void make_alphas(double half, struct gate *g) {
+    g->shapes = g->plates = g->walls = MOST_PIECES;
+    for (int i = 0; i < MOST_PIECES; i++) {
+        const double a = 1.3 * (i / 5. - 1), b = 1.3 * ((i + 1) / 5. - 1);
+        const pir_vec3 way = {b * b - a * a, 1.2 * (b * b * b - b - a * a * a + a), .15 * (b - a)};
+        const double size = sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
+        // pieces overlap where the tube bends
+        const pir_vec3 back = along(way, half), on = along(way, size + 2 * half);
+        const pir_vec3 u = along((pir_vec3){-way.x * way.z, -way.y * way.z, way.x * way.x + way.y * way.y}, half);
+        const pir_vec3 v = along((pir_vec3){way.y, -way.x, 0}, half);
+        const pir_vec3 at = {nearbyint((a * a - 1) * 65536) / 65536 - back.x - u.x - v.x,
+                             nearbyint(1.2 * (a * a * a - a) * 65536) / 65536 - back.y - u.y - v.y,
+                             nearbyint(.15 * a * 65536) / 65536 - back.z - u.z - v.z};
+        pir_vec3 p[8];
+        for (int k = 0; k < 8; k++) {
+            const int x = 2 * (k & 1), y = k & 2, z = k / 4;
+            p[k] = (pir_vec3){at.x + x * u.x + y * v.x + z * on.x, at.y + x * u.y + y * v.y + z * on.y,
+                              at.z + x * u.z + y * v.z + z * on.z};
+        }
+        g->robot[i] = make_block(p, &g->shape[i]);
+        g->wall[i] = make_block(p, &g->plate[i]);
+    }
+    g->input = (pir_rigid_plan_input){.robot = (const pir_solid *const *)g->robot,
+                                      .robot_count = MOST_PIECES,
+                                      .obstacles = (const pir_solid *const *)g->wall,
+                                      .obstacle_count = MOST_PIECES,
+                                      .low = {-4, -2, -2},
+                                      .high = {2, 2, 2},
+                                      .from = {{0, 1, 1, 0}, {-1.5, 0, 0}},
+                                      .to = {{0, 1, 1, 0}, {-3, 0, 0}}};
+}
+
 static void release_gate(struct gate *g) {
     for (int i = 0; i < g->walls; i++)
         pir_solid_release(g->wall[i]);
     for (int i = 0; i < g->plates; i++)
         pir_polytope_release(g->plate[i]);
-    pir_solid_release(g->robot);
-    pir_polytope_release(g->shape);
+    for (int i = 0; i < g->shapes; i++) {
+        pir_solid_release(g->robot[i]);
+        pir_polytope_release(g->shape[i]);
+    }
 }
 
 static void check_pose(const struct gate *g, pir_workspace *workspace, pir_pose pose) {
-    for (int i = 0; i < g->plates; i++) {
+    for (int i = 0; i < g->shapes * g->plates; i++) {
         pir_pair *pair = NULL;
         pir_query_result result;
         pir_pair_input input = pir_pair_input_default();
         input.pose_p = pose;
-        assert_int_equal(pir_pair_create(g->shape, g->plate[i], NULL, &pair), PIR_OK);
+        assert_int_equal(pir_pair_create(g->shape[i / g->plates], g->plate[i % g->plates], NULL, &pair), PIR_OK);
         assert_int_equal(pir_pair_overlap(pair, workspace, &input, &result), PIR_OK);
         assert_int_equal(result.state, PIR_OUTSIDE);
         pir_pair_destroy(pair);
@@ -207,7 +251,7 @@ static void check_same(const pir_rigid_plan_info *a, const pir_rigid_plan_info *
 }
 
 static void make_gate(double a, double b, double c, double width, double length, struct gate *g) {
-    g->robot = make_box((pir_vec3){-a / 2, -b / 2, -c / 2}, (pir_vec3){a / 2, b / 2, c / 2}, &g->shape);
+    g->robot[0] = make_box((pir_vec3){-a / 2, -b / 2, -c / 2}, (pir_vec3){a / 2, b / 2, c / 2}, &g->shape[0]);
     make_wall(width, length, sqrt(a * a + b * b + c * c) / 2 + 1, g);
 }
 
@@ -247,12 +291,25 @@ static void test_window(void **state) {
     release_gate(&g);
 }
 
+/* The alpha puzzle, of thin tubes, which translations do not part; the same by two threads. */
+static void test_alphas(void **state) {
+    (void)state;
+    pir_rigid_plan_info info[2];
+    struct gate g;
+    make_alphas(.05, &g);
+    for (uint32_t i = 0; i < 2; i++)
+        assert_int_equal(ask(&g, 32, i + 1, NULL, &info[i]), PIR_TURN_PLAN_PATH);
+    assert_int_equal(info[0].boxes, 0);
+    check_same(&info[0], &info[1]);
+    release_gate(&g);
+}
+
 /* A tetrahedron that has a ball larger than the window: decided with the first boxes; the same by two threads. */
 static void test_tight(void **state) {
     (void)state;
     pir_rigid_plan_info info[2];
     struct gate g;
-    g.robot = make_tetrahedron(16, false, &g.shape);
+    g.robot[0] = make_tetrahedron(16, false, &g.shape[0]);
     make_wall(2, 2, 17, &g);
     assert_int_equal(ask(&g, 32, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
     assert_int_equal(ask(&g, 32, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
@@ -265,7 +322,7 @@ static void test_disagreement(void **state) {
     (void)state;
     pir_rigid_plan_info info[2];
     struct gate g;
-    g.robot = make_tetrahedron(16, false, &g.shape);
+    g.robot[0] = make_tetrahedron(16, false, &g.shape[0]);
     make_wall(3.8, 3.8, 17, &g);
     assert_int_equal(ask(&g, 200, 1, NULL, &info[0]), PIR_TURN_PLAN_NO_PATH);
     assert_int_equal(ask(&g, 200, 2, NULL, &info[1]), PIR_TURN_PLAN_NO_PATH);
@@ -303,7 +360,7 @@ static void test_progress(void **state) {
     (void)state;
     struct gate g;
     pir_rigid_plan_info info;
-    g.robot = make_tetrahedron(16, false, &g.shape);
+    g.robot[0] = make_tetrahedron(16, false, &g.shape[0]);
     make_wall(2, 2, 17, &g);
     uint32_t calls = 0;
     for (uint32_t end = 0; end <= calls; end++) {
@@ -370,11 +427,11 @@ static void test_symmetric(void **state) {
         pir_rigid_plan_info info[3];
         struct gate g;
         if (kind[i].shape < 2)
-            g.robot = make_tetrahedron(kind[i].radius, kind[i].shape == 1, &g.shape);
+            g.robot[0] = make_tetrahedron(kind[i].radius, kind[i].shape == 1, &g.shape[0]);
         else if (kind[i].shape == 2)
-            g.robot = make_octahedron(kind[i].radius, &g.shape);
+            g.robot[0] = make_octahedron(kind[i].radius, &g.shape[0]);
         else
-            g.robot = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape);
+            g.robot[0] = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape[0]);
         make_wall(2, 2, kind[i].radius + 1, &g);
         if (kind[i].is_shifted)
             g.input.high.x = nextafter(g.input.high.x, 2);
@@ -528,9 +585,9 @@ static int write_proof(const char *path, bool is_box) {
     if (!file)
         return 1;
     if (is_box)
-        g.robot = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape);
+        g.robot[0] = make_box((pir_vec3){-9, -9, -9}, (pir_vec3){9, 9, 9}, &g.shape[0]);
     else
-        g.robot = make_tetrahedron(16, false, &g.shape);
+        g.robot[0] = make_tetrahedron(16, false, &g.shape[0]);
     make_wall(is_box ? 2 : 3.8, is_box ? 2 : 3.8, 17, &g);
     const bool is_good = ask(&g, 400, 1, file, &info) == PIR_TURN_PLAN_NO_PATH;
     release_gate(&g);
@@ -544,7 +601,7 @@ int main(int count, char **words) {
         cmocka_unit_test(test_wide),         cmocka_unit_test(test_slot),  cmocka_unit_test(test_window),
         cmocka_unit_test(test_tight),        cmocka_unit_test(test_gates), cmocka_unit_test(test_budget),
         cmocka_unit_test(test_disagreement), cmocka_unit_test(test_bad),   cmocka_unit_test(test_progress),
-        cmocka_unit_test(test_symmetric),    cmocka_unit_test(test_far)};
+        cmocka_unit_test(test_symmetric),    cmocka_unit_test(test_far),   cmocka_unit_test(test_alphas)};
     const char *told = getenv("PIR_TEST_SEED");
     const unsigned seed = told ? (unsigned)atoi(told) : 1;
     srand(seed);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "plan/band/band_push.h"
+#include "plan/band/band_tree.h"
 
 /* The first spacing, in parts of the robot's radius; how much finer each next one is; how many there are. */
 #define FIRST_SPACING (1 / 6.0)
@@ -30,6 +31,7 @@ struct pushed_way {
 struct pir_band {
     pir_band_bodies bodies;
     pir_band_row row;
+    pir_band_trees trees;
     struct pushed_way *way;
     uint32_t ways, room;
 };
@@ -54,6 +56,7 @@ void pir_band_destroy(pir_band *band) {
         free(band->way[i].pose);
     free(band->way);
     pir_band_row_finish(&band->row);
+    pir_band_trees_finish(&band->trees);
     free(band);
 }
 
@@ -212,6 +215,29 @@ pir_status pir_band_try(pir_band *band, uint64_t *work, pir_pose **ret_step, uin
     memcpy(band->row.pose, best->pose, best->count * sizeof *best->pose);
     band->row.count = best->count;
     const pir_status status = refine(band, best, *work, ret_step, ret_steps);
+    *work = work_left(band, begin, *work);
+    return status;
+}
+
+pir_status pir_band_grow(pir_band *band, const pir_pose end[2], uint64_t *work, pir_pose **ret_step,
+                         uint32_t *ret_steps) {
+    const pir_band_pose ends[2] = {unit_pose(&end[0]), unit_pose(&end[1])};
+    const uint64_t begin = band->bodies.work;
+    uint32_t met[2];
+    bool is_free = false;
+    *ret_step = NULL;
+    *ret_steps = 0;
+    pir_status status = pir_band_trees_grow(&band->bodies, ends, *work, &band->trees, met);
+    if (status == PIR_OK)
+        status = pir_band_trees_way(&band->trees, met, &band->row);
+    if (status == PIR_OK) {
+        pir_pose *step = calloc(band->row.count, sizeof *step);
+        status = step ? prove(band, end, step, ret_steps, &is_free) : PIR_ERR_MEMORY;
+        if (status == PIR_OK && is_free)
+            *ret_step = step;
+        else
+            free(step);
+    }
     *work = work_left(band, begin, *work);
     return status;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * Paths by pushing: a way of poses, in which the robot may meet obstacles, is pushed to where it has more room.
+ * Paths by pushing: a way of poses, in which the robot may meet obstacles, is pushed to where it has more room; and by
+ * trees of poses that are free.
  *
  * A *band* is a row of poses at most a spacing apart, its ends held. A pose has the signed distances of all pieces that
  * are within a reach, and their gradients by translation and turn. It is moved, by a step of bounded length and across
@@ -8,12 +9,16 @@
  * it is not. Then the band is spaced anew along straight motions, which shortens it. This is done with a coarse
  * spacing, then with finer ones, as long as the robot comes free: nothing is proven by it, and all of it is doubles.
  *
- * A path is made of motions between poses of the band. Each goes straight and turns evenly, and is proven to be free by
+ * A robot that hangs in an obstacle seldom comes free by that: a coarse band leaps over what it would have to go round.
+ * So two *trees* of free poses grow from the ends, toward random poses and each other, until they meet.
+ *
+ * A path is made of motions between poses of a way. Each goes straight and turns evenly, and is proven to be free by
  * sweeps (pirouette/sweep.h) of all pairs of exact pieces but those whose boxes along the motion are apart. So what is
- * said to be a path is one, however the band came about. Where a motion is not proven the spacing is not fine enough.
+ * said to be a path is one, however the way came about. Where a motion is not proven the spacing is not fine enough.
  *
  * Sources: elastic bands are those of Quinlan and Khatib, Elastic bands: connecting path planning and control, 1993;
- * rows of states pushed across their tangents those of Jónsson, Mills and Jacobsen, 1998.
+ * rows of states pushed across their tangents those of Jónsson, Mills and Jacobsen, 1998; trees from both ends those
+ * of Kuffner and LaValle, RRT-Connect: an efficient approach to single-query path planning, 2000.
  */
 #ifndef PIR_PLAN_BAND_BAND_H
 #define PIR_PLAN_BAND_BAND_H
@@ -46,5 +51,12 @@ pir_status pir_band_add(pir_band *band, const pir_pose *way, uint32_t count, uin
  * NULL where the way does not come free. PIR_ERR_EMPTY where there is no way or work left.
  */
 pir_status pir_band_try(pir_band *band, uint64_t *work, pir_pose **ret_step, uint32_t *ret_steps);
+
+/*
+ * Grows trees of poses from both ends, the same in each call, until they meet or the work is used up. The path is as
+ * that of pir_band_try. PIR_ERR_EMPTY where they do not meet.
+ */
+pir_status pir_band_grow(pir_band *band, const pir_pose end[2], uint64_t *work, pir_pose **ret_step,
+                         uint32_t *ret_steps);
 
 #endif

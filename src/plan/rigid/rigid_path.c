@@ -160,9 +160,12 @@ pir_status pir_rigid_path_make(const pir_rigid_job *job, pir_rigid_result *resul
     return status;
 }
 
-/* --- ways that are pushed --- */
+/* --- ways that are pushed, and trees --- */
 
-/* Distances that may be asked for; how many ways there are, are pushed before the best are tried, are tried then. */
+/*
+ * Distances that ways may ask for, and as many that trees may; how many ways there are, are pushed before the best are
+ * tried, are tried then.
+ */
 #define WORK  ((uint64_t)3 << 20)
 #define WAYS  48
 #define FIRST 8
@@ -200,31 +203,62 @@ static bool is_to_go_on(const pir_rigid_question *question) {
     return !question->progress || question->progress(question->context, 0, 0);
 }
 
-/* Pushes ways; what cannot be asked or pushed is left to boxes. */
+/* Trees and ways are given distances alike; what is left of them for each, and the path. */
+struct push {
+    pir_band *band;
+    uint64_t work[2];
+    pir_pose *step;
+    uint32_t steps;
+};
+
+/* Pushes the best ways at finer spacings. */
+static pir_status try_ways(const pir_rigid_question *question, struct push *push, bool *goes_on) {
+    pir_status status = PIR_OK;
+    for (int k = 0; k < TRIES && status == PIR_OK && *goes_on && !push->step; k++) {
+        status = pir_band_try(push->band, &push->work[0], &push->step, &push->steps);
+        *goes_on = is_to_go_on(question);
+    }
+    return status == PIR_ERR_EMPTY ? PIR_OK : status;
+}
+
+/* Lets trees grow until they have asked for as many distances as the ways have. */
+static pir_status grow_trees(const pir_rigid_question *question, struct push *push, bool *goes_on) {
+    const pir_pose end[2] = {{question->rotation[0], point_of(question->at[0])},
+                             {question->rotation[1], point_of(question->at[1])}};
+    if (push->work[1] <= push->work[0])
+        return PIR_OK;
+    uint64_t left = push->work[1] - push->work[0];
+    const pir_status status = pir_band_grow(push->band, end, &left, &push->step, &push->steps);
+    push->work[1] = push->work[0] + left;
+    *goes_on = is_to_go_on(question);
+    return status == PIR_ERR_EMPTY ? PIR_OK : status;
+}
+
+/* Pushes ways and grows trees; what cannot be asked or found is left to boxes. */
 static pir_status push_ways(const pir_rigid_question *question, pir_pose **ret_step, uint32_t *ret_steps) {
     const pir_band_question bodies = {question->robot, question->obstacles, question->wide, question->low,
                                       question->high};
-    pir_band *band = NULL;
-    uint64_t work = WORK;
+    struct push push = {.work = {WORK, WORK}};
     double most = -INFINITY, room;
     bool goes_on = true;
-    pir_status status = pir_band_create(&bodies, &band);
-    for (uint32_t i = 0; i < WAYS && status == PIR_OK && goes_on && !*ret_step && work > 0; i++) {
-        status = add_way(question, band, i, &work, &room);
+    pir_status status = pir_band_create(&bodies, &push.band);
+    for (uint32_t i = 0; i < WAYS && status == PIR_OK && goes_on && !push.step && push.work[0] > 0; i++) {
+        status = add_way(question, push.band, i, &push.work[0], &room);
         most = fmax(most, room);
         goes_on = is_to_go_on(question);
-        if ((i + 1) % FIRST != 0)
+        if (status != PIR_OK || ((i + 1) % FIRST != 0 && push.work[0] > 0))
             continue;
         // where none nearly fits, others will hardly do
         if (most <= -1)
             break;
-        for (int k = 0; k < TRIES && status == PIR_OK && goes_on && !*ret_step; k++) {
-            status = pir_band_try(band, &work, ret_step, ret_steps);
-            goes_on = is_to_go_on(question);
-        }
+        status = try_ways(question, &push, &goes_on);
+        if (status == PIR_OK && goes_on && !push.step)
+            status = grow_trees(question, &push, &goes_on);
     }
-    pir_band_destroy(band);
-    if (!*ret_step && !goes_on)
+    pir_band_destroy(push.band);
+    *ret_step = push.step;
+    *ret_steps = push.steps;
+    if (!push.step && !goes_on)
         return PIR_PLAN_ERR_CALLER;
     return status == PIR_ERR_MEMORY ? status : PIR_OK;
 }
