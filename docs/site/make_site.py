@@ -54,6 +54,8 @@ PLANS = [
      ["bug-large", "trap", "--translate-only", "--from=1.5,1.5,1.5", "--to=4.5,4.5,13"]),
     ("peg", "A peg turns to go through", "It lies across a hole, goes through upright, and lies on the other side.",
      ["peg-loose", "plate", "--axis=0,1,0", "--bounds=0.5,0,-9,5.5,5,9", "--from=1,2.5,4,90", "--to=1,2.5,-2,90"]),
+    ("alpha", "The alpha puzzle", "Two tubes that hang in each other come apart, by turns and ways at once.",
+     ["alpha-50", "alpha-50", "--bounds=-4,-2,-2,2,2,2", "--from=-1.5,0,0,0,1,1,0", "--to=-3,0,0,0,1,1,0"]),
 ]
 WORD = re.compile(r"\b(?:pir|PIR)_\w+\b")
 
@@ -233,11 +235,12 @@ class Site:
         for name, title, about, (robot, obstacle, *asked) in PLANS:
             page, paths = self.out / "gallery" / f"plan-{name}.html", []
             for model in (robot, obstacle):
-                paths.append(self.out / "gallery" / f"{model}.off")
+                suffix = "off" if models[model].startswith("OFF") else "obj"
+                paths.append(self.out / "gallery" / f"{model}.{suffix}")
                 paths[-1].write_text(models[model], encoding="utf-8")
             done = subprocess.run([self.command, "plan", *paths, *asked, "--page", page], capture_output=True,
                                   text=True)
-            for path in paths:
+            for path in set(paths):
                 path.unlink()
             if done.returncode != 0:
                 self.errors.append(f"gallery: plan-{name}: {done.stderr.strip()}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Writes models to plan with, in OFF: make_models.py FOLDER.
+"""Writes models to plan with, in OFF, or OBJ where one is of several solids: make_models.py FOLDER.
 
 - window-24-9020.off and so on, a plate with a round hole of 24 or 96 corners and diameter .9020 or .9010, and
   tetrahedron.off, regular, of edge 1: it goes through by translations from diameter .901388 on (Halperin, Sharir,
@@ -8,7 +8,10 @@
 - plate.off, with a square hole, and pegs: peg-tight.off fits exactly, peg-loose.off with room, peg-large.off not;
 - trap.off, a box whose entrance reaches into it, and bug.off, which finds out, bug-large.off, which does not;
 - burr-S-1.off to burr-S-6.off, the pieces of a burr puzzle of seed S, assembled: piece 1 of seeds 1 to 3 is a key, a
-  whole bar; seed 4 has none.
+  whole bar; seed 4 has none;
+- alpha-30.obj, alpha-50.obj and alpha-74.obj, a tube of radius .030 and so on, bent to the letter alpha, in prisms that
+  overlap where it bends. Two of them hang in each other at ALPHA_LINKED. Where a tube crosses itself, .300 less two
+  radii are free: a tube of .074 has .152 there, to be passed by one of .148.
 """
 import math
 import pathlib
@@ -17,6 +20,9 @@ import sys
 
 # The turn in which the tetrahedron goes through the smallest window along z: a quaternion x, y, z, w.
 WINDOW_TURN = (0, 0.20354053471956063, 0, 0.9790665200720916)
+
+# Where one alpha hangs in the other, turned by half a turn: x, y, z, and a quaternion.
+ALPHA_LINKED = (-1.5, 0, 0, 0, 1, 1, 0)
 
 
 def off(points, facets):
@@ -112,6 +118,46 @@ def connected(piece):
     return max(parts, key=len)
 
 
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def unit(v):
+    return [x / math.sqrt(dot(v, v)) for x in v]
+
+
+def tube(line, radius, grid=2.0 ** -16):
+    """Six-sided prisms along a line of points, in OBJ. Numbers are multiples of the grid, so that facets are planar."""
+    def on_grid(v):
+        return [round(x / grid) * grid for x in v]
+
+    ways = [unit([b - a for a, b in zip(p, q)]) for p, q in zip(line, line[1:])]
+    lines, side = [], (0.0, 0.0, 1.0)
+    for i, way in enumerate(ways):
+        side = unit([x - dot(side, way) * y for x, y in zip(side, way)])
+        across = [way[k - 2] * side[k - 1] - way[k - 1] * side[k - 2] for k in range(3)]
+        # each end goes on to where the sides of the next prism begin
+        cosines = [dot(way, ways[k]) if 0 <= k < len(ways) else 1.0 for k in (i - 1, i + 1)]
+        more = [radius * math.sqrt((1 - c) / (1 + c)) for c in cosines]
+        begin = on_grid([x - more[0] * y for x, y in zip(line[i], way)])
+        along = on_grid([x + more[1] * y - z for x, y, z in zip(line[i + 1], way, begin)])
+        p = on_grid([radius * x for x in side])
+        q = on_grid([radius * (x / 2 + math.sqrt(0.75) * y) for x, y in zip(side, across)])
+        ring = [p, q, [b - a for a, b in zip(p, q)]]
+        ring += [[-x for x in v] for v in ring]
+        points = [[x + y + k * z for x, y, z in zip(begin, v, along)] for k in range(2) for v in ring]
+        facets = [range(6, 0, -1), range(7, 13), *([k + 1, (k + 1) % 6 + 1, (k + 1) % 6 + 7, k + 7] for k in range(6))]
+        lines += [f"o prism-{i + 1}", *("v " + " ".join(map(repr, v)) for v in points)]
+        lines += ["f " + " ".join(str(12 * i + k) for k in facet) for facet in facets]
+    return "\n".join(lines) + "\n"
+
+
+def alpha(radius, prisms=10, height=0.15, end=1.3):
+    """A tube along a cubic that crosses itself over the origin, with twice the height between its middle lines."""
+    at = [end * (2 * i / prisms - 1) for i in range(prisms + 1)]
+    return tube([(s * s - 1, 1.2 * (s ** 3 - s), height * s) for s in at], radius)
+
+
 def models():
     """Each model by its name."""
     plate = block((0, 0, 0), (6, 6, 1)) - block((2, 2, 0), (4, 4, 1))
@@ -126,6 +172,8 @@ def models():
     for seed in range(1, 5):
         for i, piece in enumerate(burr(seed)):
             made[f"burr-{seed}-{i + 1}"] = cubes(piece)
+    for radius in (30, 50, 74):
+        made[f"alpha-{radius}"] = alpha(radius / 1000)
     return made
 
 
@@ -133,7 +181,8 @@ def main(folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in models().items():
-        (folder / (name + ".off")).write_text(text, encoding="utf-8")
+        suffix = ".off" if text.startswith("OFF") else ".obj"
+        (folder / (name + suffix)).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -35,7 +35,8 @@ class PlanTest(CommandTest):
         cls.text = MODELS.models()
 
     def model(self, name):
-        path = self.path / ("plan-" + name + ".off")
+        suffix = ".off" if self.text[name].startswith("OFF") else ".obj"
+        path = self.path / ("plan-" + name + suffix)
         if not path.exists():
             path.write_text(self.text[name])
         return path
@@ -201,6 +202,15 @@ class Plan(PlanTest):
         self.bad("plan", solid, plate, "--from=0,0,0", *good[4:], says=("from", "meets an obstacle"))
         self.bad("plan", solid, plate, "--from=0,0,-17,0,0,0,0", *good[4:], says=("--from", "quaternion"))
         self.bad(*good, "--translate-only", "--threads=2", says=("--threads",))
+
+    def test_alphas_come_apart(self):
+        """Two tubes that hang in each other, by turns and not by translations."""
+        start, goal = (f"{x}," + ",".join(map(str, MODELS.ALPHA_LINKED[1:])) for x in (MODELS.ALPHA_LINKED[0], -3))
+        for name in ("alpha-30", "alpha-50"):
+            asked = "plan", self.model(name), self.model(name), f"--from={start}", f"--to={goal}"
+            told = self.data(*asked, "--bounds=-4,-2,-2,2,2,2", "--boxes=32")
+            self.assertEqual((told["answer"], told["robot_pieces"], told["obstacle_pieces"]), ("path", 10, 10), name)
+        self.assertEqual(self.data(*asked, "--translate-only")["answer"], "no path")
 
 
 class Proofs(PlanTest):
