@@ -147,12 +147,14 @@ static bool read_motions(struct plan_run *run, const double bounds[6]) {
     run->how.boxes = boxes > 0 ? (uint32_t)boxes : run->how.boxes;
     run->how.memory = memory > 0 ? (size_t)memory << 20 : run->how.memory;
     run->how.asymmetric = args_has(args, "--asymmetric");
+    run->how.boxes_alone = args_has(args, "--boxes-alone");
     run->how.parts = run->options.parts > 0 ? run->options.parts : run->how.parts;
     return target_check(args, "-o", NULL);
 }
 
 /* Options that only plans by any motion have. */
-static const char *const of_motions[] = {"--boxes", "--memory", "--threads", "--asymmetric", "--resume", "--dry-run"};
+static const char *const of_motions[] = {"--boxes",       "--memory", "--threads", "--asymmetric",
+                                         "--boxes-alone", "--resume", "--dry-run"};
 
 static bool read_options(struct plan_run *run) {
     const struct args *args = run->args;
@@ -555,6 +557,7 @@ static bool print_motions_json(FILE *file, const struct plan_run *run, const pir
     json_add_count(&json, json.root, "obstacle_pieces", info->obstacle_pieces);
     json_add_count(&json, json.root, "boxes", info->boxes);
     json_add_count(&json, json.root, "divided", info->divided);
+    json_add_count(&json, json.root, "cells", info->cells);
     json_add_count(&json, json.root, "symmetries", info->symmetries);
     json_add_count(&json, json.root, "parts", info->parts);
     json_add_number(&json, json.root, "seconds", run->seconds);
@@ -572,9 +575,11 @@ static void print_motions_text(const struct plan_run *run, const pir_rigid_plan_
     if (info->answer == PIR_TURN_PLAN_PATH)
         say("  %-10s %" PRIu32 ", by motions that are proven to be free; -o or --json tells them\n", "poses",
             info->steps);
+    if (info->cells > 0)
+        say("  %-10s %" PRIu32 " of planes through holes of walls\n", "cells", info->cells);
     say("  %-10s %" PRIu32 " of rotations, %" PRIu32 " more divided, %" PRIu64 " parts of translations\n", "boxes",
         info->boxes, info->divided, info->parts);
-    if (info->symmetries > 1)
+    if (info->symmetries > 1 && info->boxes > 0)
         say("  %-10s of bodies and bounds: one box stands for %" PRIu32 "\n", "symmetries", info->symmetries);
     say("  %-10s %s\n", "time", time);
 }

@@ -112,6 +112,7 @@ static const struct option plan_options[] = {
     {"--memory", "MB", "by any motion: say unknown where boxes would take more than so many MiB (4096)"},
     {"--threads", "N", "by any motion: share the work among N threads; the answer is the same (1)"},
     {"--asymmetric", NULL, "by any motion: make each box by itself, where symmetries of bodies would save some"},
+    {"--boxes-alone", NULL, "by any motion: do not look for walls whose holes are too narrow before boxes are made"},
     {"--resume", NULL,
      "by any motion: go on with FILE.part, which a run with this -o FILE has left, to the same answer; "
      "without this such a file is an error"},

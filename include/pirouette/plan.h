@@ -291,9 +291,11 @@ typedef struct pir_rigid_plan_options {
      * up to 16; 1: each is made by itself. Another answer than unknown is the same, another proof may be given.
      */
     uint32_t asymmetric;
+    /** 0: walls whose holes are too narrow are looked for before boxes are made; 1: boxes of rotations alone. */
+    uint32_t boxes_alone;
 } pir_rigid_plan_options;
 
-/** Memory as of pir_solid_options_default; no proof, no journal, 2^16 boxes, 2^22 parts, 1 thread, symmetries. O(1). */
+/** Memory as of pir_solid_options_default; no proof, no journal, 2^16 boxes, 2^22 parts, 1 thread, 0 else. O(1). */
 static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
     const pir_rigid_plan_options options = {sizeof(pir_rigid_plan_options),
                                             pir_solid_options_default().memory,
@@ -307,6 +309,7 @@ static inline pir_rigid_plan_options pir_rigid_plan_options_default(void) {
                                             NULL,
                                             NULL,
                                             NULL,
+                                            0,
                                             0};
     return options;
 }
@@ -330,6 +333,7 @@ typedef struct pir_rigid_plan_info {
     uint32_t robot_pieces, obstacle_pieces;
     uint32_t symmetries; /**< how many boxes, of those at the end, one stands for; 1 where there is no symmetry */
     pir_plan_end end;    /**< why it ended */
+    uint32_t cells;      /**< of planes that the holes of walls were divided into; 0 where none were looked at */
 } pir_rigid_plan_info;
 
 /**
@@ -343,12 +347,15 @@ typedef struct pir_rigid_plan_info {
  * every rotation of a box are blocked, so where free cells of all boxes leave the ends apart there is no path. A path
  * is made of motions that sweeps prove to be free, found by pushing ways to where P has room; or of exact translations
  * at single rotations, and of turns that pieces around P over the turn prove to be free.
+ * Before boxes are made, walls are looked for: planes that cut obstacles such that a piece of P has to pass holes.
+ * Where its sections by all planes between one side and the other are in no disc that has the hole, there is no path.
+ * Planes in the frame of the piece have three degrees of freedom, however long and wide the way is.
  * An answer other than unknown is proven, and of two questions that only differ in their budgets no two are answered
  * otherwise.
  *
  * Cost: for each box that of pir_path_plan_translate twice; of boxes that symmetries map to each other, for one alone.
  * Where a gap is less than a passage needs by a part ε, boxes of size ε are needed where P nearly fits: in general
- * O(ε^-3) of them.
+ * O(ε^-3) of them. Of walls, some 1/ε² cells of planes at worst, at most 64 times `boxes`, each some microseconds.
  *
  * Errors: PIR_ERR_ARGUMENT (no solid, bounds that hold nothing, a pose out of bounds or blocked), PIR_ERR_NOT_FINITE,
  * PIR_ERR_ZERO_QUATERNION, PIR_ERR_EMPTY without a robot or obstacles, PIR_ERR_VERSION, PIR_ERR_LIMIT (a solid),

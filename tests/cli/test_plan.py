@@ -181,11 +181,14 @@ class Plan(PlanTest):
         solid = self.file("solid.off", "OFF\n4 4 6\n9 9 9\n9 -9 -9\n-9 9 -9\n-9 -9 9\n"
                           "3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n")
         good = ["plan", solid, plate, "--from=0,0,-17", "--to=0,0,17"]
-        told = self.data(*good, "--bounds=-1,-1,-18,1,1,18", "-o", proof)
-        self.assertEqual((told["answer"], told["boxes"]), ("no path", 32))
-        run = subprocess.run([sys.executable, "-B", ROOT / "check" / "motions.py", proof], capture_output=True,
-                             text=True, check=False)
-        self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
+        for options, made, kind in (((), 0, "openings"), (("--boxes-alone",), 32, "motions")):
+            told = self.data(*good, "--bounds=-1,-1,-18,1,1,18", *options, "-o", proof)
+            self.assertEqual((told["answer"], told["boxes"], told["cells"] > 0), ("no path", made, not options))
+            self.assertIn(kind, json.loads(proof.read_text()))
+            run = subprocess.run([sys.executable, "-B", ROOT / "check" / "motions.py", proof], capture_output=True,
+                                 text=True, check=False)
+            self.assertTrue(run.stdout.startswith("proven: no path"), run.stdout + run.stderr)
+        self.bad(*good, "--bounds=-1,-1,-18,1,1,18", "-o", "/dev/full", "--boxes-alone", says=("/dev/full: cannot",))
         self.bad(*good, "--bounds=-1,-1,-18,1,1,18", "-o", "/dev/full", says=("/dev/full: cannot write: No space",))
         self.bad(*good, says=("--bounds",))
         good.append("--bounds=-1,-1,-18,1,1,18")

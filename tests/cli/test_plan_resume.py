@@ -82,7 +82,8 @@ class Resumed(PlanTest):
     def window(self, diameter, sides):
         model = self.file(f"window-{diameter}-{sides}.off", MODELS.window(diameter, sides))
         # each box by itself, so that a run takes a while
-        self.job = [self.command, "plan", str(self.model("tetrahedron")), str(model), "--asymmetric", *BOUNDS]
+        self.job = [self.command, "plan", str(self.model("tetrahedron")), str(model), "--asymmetric", "--boxes-alone",
+                    *BOUNDS]
 
     def start(self, *options):
         return subprocess.Popen([*self.job, "-o", str(self.out), *options], stdout=subprocess.DEVNULL,
@@ -241,6 +242,7 @@ class Resumed(PlanTest):
         self.bad(*job, "--resume", says=("--resume", "-o"))
         self.bad(*job, "--resume", "-o", "-", says=("--resume", "-o"))
         job.remove("--asymmetric")
+        job.remove("--boxes-alone")
         self.bad(*job, "--translate-only", "--resume", says=("--resume",))
 
 

@@ -136,7 +136,7 @@ class Killed(Ranks):
 
 class Plans(Ranks):
     """By any motion: boxes of rotations are dealt, and the texts of the proof."""
-    ENDS = ("--bounds=-1,-1,-2,1,1,2", "--from=0,0,-1.5", "--to=0,0,1.5")
+    ENDS = ("--bounds=-1,-1,-2,1,1,2", "--from=0,0,-1.5", "--to=0,0,1.5", "--boxes-alone")
 
     def models(self, diameter, sides):
         path = Path(__file__).resolve().parents[2] / "examples" / "plan" / "make_models.py"
@@ -164,6 +164,12 @@ class Plans(Ranks):
         # what was kept of 32 boxes by one process
         self.assertEqual(self.plan(job, "part.json", 0, "--boxes=32")[0]["answer"], "unknown")
         self.assertEqual(self.plan(job, "part.json", 3, "--resume", "--threads=2")[1], proof)
+
+    def test_ranks_find_the_same_openings(self):
+        job = (*self.models(.3, 3), *self.ENDS[:3])
+        told, proof = self.plan(job, "one.json", 0)
+        self.assertEqual((told["answer"], told["boxes"], told["cells"] > 0), ("no path", 0, True))
+        self.assertEqual(self.plan(job, "two.json", 2, "--threads=2")[1], proof)
 
     def test_ranks_find_the_same_path(self):
         job = (*self.models(1.1, 8), *self.ENDS)

@@ -57,7 +57,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size) {
 struct question {
     pir_solid *robot, *wall[4];
     pir_rigid_plan_input input;
-    uint32_t boxes;
+    uint32_t boxes, boxes_alone;
     pir_turn_plan_answer answer;
     char journal[32], *proof; /* the text of a proof where there is no path */
     size_t proof_size;
@@ -66,7 +66,7 @@ struct question {
 /* With half an edge of a cube about the tetrahedron, and half the width of the window. */
 static void make_question(double e, double x, uint32_t boxes, pir_turn_plan_answer answer, struct question *q) {
     const pir_vec3 corner[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
-    *q = (struct question){.boxes = boxes, .answer = answer, .journal = "rigid_memory_XXXXXX"};
+    *q = (struct question){.boxes = boxes, .boxes_alone = 1, .answer = answer, .journal = "rigid_memory_XXXXXX"};
     q->robot = make_simplex(corner);
     q->input = make_gate_of(2 * x, 2 * x, 2 * e + 1, &q->robot, q->wall, NULL);
     const int descriptor = mkstemp(q->journal);
@@ -86,7 +86,7 @@ static void release(struct question *q) {
 static char *text_of(FILE *file, size_t *ret_size) {
     fseek(file, 0, SEEK_END);
     *ret_size = (size_t)ftell(file);
-    char *text = __real_malloc(*ret_size + 1);
+    char *text = __real_calloc(*ret_size + 1, 1);
     rewind(file);
     assert_non_null(text);
     assert_int_equal(fread(text, 1, *ret_size, file), *ret_size);
@@ -100,6 +100,7 @@ static bool ask(struct question *q, unsigned long n, uint32_t threads, bool resu
     pir_report report = {0};
     pir_rigid_plan_options options = pir_rigid_plan_options_default();
     options.boxes = q->boxes;
+    options.boxes_alone = q->boxes_alone;
     options.threads = threads;
     options.proof = tmpfile();
     options.journal = q->journal;
@@ -175,6 +176,17 @@ static void test_no_path(void **state) {
     release(&q);
 }
 
+/* A wall is found, and its planes divided. */
+static void test_opening(void **state) {
+    (void)state;
+    struct question q;
+    make_question(16 / sqrt(3), .5, 3200, PIR_TURN_PLAN_NO_PATH, &q);
+    q.boxes_alone = 0;
+    try_all(&q);
+    assert_non_null(strstr(q.proof, "openings"));
+    release(&q);
+}
+
 static void test_path(void **state) {
     (void)state;
     struct question q;
@@ -203,7 +215,7 @@ static void test_unknown(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_path), cmocka_unit_test(test_path),
-                                       cmocka_unit_test(test_unknown)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_no_path), cmocka_unit_test(test_opening),
+                                       cmocka_unit_test(test_path), cmocka_unit_test(test_unknown)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

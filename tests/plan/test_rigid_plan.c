@@ -214,9 +214,16 @@ static bool on_progress(void *context, uint32_t made, uint32_t written) {
     return told->calls != told->end;
 }
 
+/* Boxes alone: what openings decide is in test_opening.c. */
+static pir_rigid_plan_options boxes_options(void) {
+    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    options.boxes_alone = 1;
+    return options;
+}
+
 static pir_turn_plan_answer ask_as(const struct gate *g, bool asymmetric, uint32_t boxes, uint32_t threads, FILE *proof,
                                    pir_rigid_plan_info *ret_info) {
-    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan_options options = boxes_options();
     pir_rigid_plan *plan = NULL;
     options.asymmetric = asymmetric;
     options.boxes = boxes;
@@ -341,7 +348,7 @@ static void test_budget(void **state) {
     assert_int_equal(info.end, PIR_PLAN_END_BOXES);
     // memory, or parts, that end while boxes are divided
     for (int of_parts = 0; of_parts < 2; of_parts++) {
-        pir_rigid_plan_options options = pir_rigid_plan_options_default();
+        pir_rigid_plan_options options = boxes_options();
         pir_rigid_plan *plan = NULL;
         options.memory = of_parts ? options.memory : 600000;
         options.parts = of_parts ? 40 : options.parts;
@@ -365,7 +372,7 @@ static void test_progress(void **state) {
     uint32_t calls = 0;
     for (uint32_t end = 0; end <= calls; end++) {
         struct told told = {.step = 16, .end = end};
-        pir_rigid_plan_options options = pir_rigid_plan_options_default();
+        pir_rigid_plan_options options = boxes_options();
         pir_rigid_plan *plan = NULL;
         options.progress = on_progress;
         options.context = &told;
@@ -448,7 +455,7 @@ static void test_symmetric(void **state) {
 
 /* The proof, or the path, that is told; from malloc. */
 static char *told_of(const pir_rigid_plan_input *input, bool is_proof, size_t *ret_size, uint32_t *ret_pieces) {
-    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan_options options = boxes_options();
     pir_rigid_plan *plan = NULL;
     pir_rigid_plan_info info;
     char *text = NULL;
@@ -474,7 +481,7 @@ static void test_far(void **state) {
     for (int is_proof = 0; is_proof < 2; is_proof++) {
         struct gate g;
         const double r = is_proof ? 16 : .5;
-        g.robot = make_tetrahedron(r, false, &g.shape);
+        g.robot[0] = make_tetrahedron(r, false, &g.shape[0]);
         make_wall(is_proof ? 2 : 3, is_proof ? 2 : 3, r + 1, &g);
         size_t size[3];
         uint32_t pieces[3];
@@ -526,7 +533,7 @@ static void test_bad(void **state) {
     (void)state;
     struct gate g;
     pir_report report = {0};
-    pir_rigid_plan_options options = pir_rigid_plan_options_default();
+    pir_rigid_plan_options options = boxes_options();
     options.report = &report;
     make_gate(1, 1, 1, 2, 2, &g);
     pir_rigid_plan_input in = g.input;
@@ -557,6 +564,9 @@ static void test_bad(void **state) {
     options.asymmetric = 2;
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
     options.asymmetric = 0;
+    options.boxes_alone = 2;
+    assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
+    options.boxes_alone = 1;
     options.journal = "none/journal"; // without a proof, and in no folder
     assert_int_equal(status_of(&g.input, &options), PIR_ERR_ARGUMENT);
     options.journal = NULL;

@@ -22,6 +22,7 @@ typedef struct pir_rigid_question {
     pir_quat rotation[2];                            /* likewise */
     uint32_t most_boxes;                             /* of rotations */
     uint32_t most_parts;                             /* of the boxes of one division */
+    bool is_boxes_alone;                             /* whether openings are not tried */
     size_t memory;                                   /* of one division, and of all parts that are kept */
     bool (*progress)(void *context, uint32_t made, uint32_t written); /* NULL, or told of boxes; false ends it */
     void *context;

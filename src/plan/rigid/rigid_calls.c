@@ -53,9 +53,9 @@ static pir_status check_numbers(const struct rigid_call *t) {
     }
     if (t->how.boxes < PIR_ROTATION_ROOTS || t->how.threads == 0)
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT, "plan: less than %d boxes, or no thread", PIR_ROTATION_ROOTS);
-    if (t->how.resume > 1 || t->how.asymmetric > 1 || (t->how.journal && !t->how.proof))
+    if (t->how.resume > 1 || t->how.asymmetric > 1 || t->how.boxes_alone > 1 || (t->how.journal && !t->how.proof))
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT,
-                        "plan: resume or asymmetric is neither 0 nor 1, or a journal has no proof");
+                        "plan: resume, asymmetric or boxes_alone is neither 0 nor 1, or a journal has no proof");
     const pir_plan_ranks *ranks = t->how.ranks;
     if (ranks && (ranks->number >= ranks->count || !ranks->exchange || (ranks->number > 0 && t->how.journal)))
         return pir_fail(t->how.report, PIR_ERR_ARGUMENT,
@@ -82,6 +82,7 @@ static void fill_question(struct rigid_call *t) {
                                        .rotation = {scaled(in->from.rotation), scaled(in->to.rotation)},
                                        .most_boxes = t->how.boxes,
                                        .most_parts = t->how.parts,
+                                       .is_boxes_alone = t->how.boxes_alone != 0,
                                        .memory = t->how.memory,
                                        .progress = t->how.progress,
                                        .context = t->how.context};
@@ -218,7 +219,7 @@ static pir_status decide(struct rigid_call *t, pir_rigid_plan *plan) {
     const pir_rigid_result *r = &plan->result;
     plan->info = (pir_rigid_plan_info){r->answer, r->steps,       r->boxes,        r->divided,
                                        r->parts,  t->robot.count, obstacle_pieces, t->question.symmetries.count,
-                                       r->end};
+                                       r->end,    r->cells};
     return status;
 }
 

@@ -5,6 +5,10 @@
  * First some straight ways are pushed to where the robot has room (plan/band): most paths are found so, in a time that
  * hardly depends on how narrow they are. Where none is, boxes are made.
  *
+ * Then walls with holes that are too narrow are looked for (plan/opening), which have three degrees of freedom,
+ * not six.
+ * Where there is none of these, or it is not decided:
+ *
  * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner sums
  * (inner_sums.h): what they have is blocked at every rotation of the box. Free cells of boxes that share a rotation
  * are joined unless they are proven to be apart. Where the ends are not connected, there is no path.
@@ -116,6 +120,7 @@ typedef struct pir_rigid_result {
     pir_turn_plan_answer answer;
     pir_plan_end end;
     uint32_t boxes, divided; /* leaves at the end; boxes that were divided */
+    uint32_t cells;          /* of openings */
     uint64_t parts;
     pir_pose *step; /* of a path; from malloc */
     uint32_t steps;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "plan/opening/opening.h"
 #include "plan/rigid/rigid_boxes.h"
 #include "plan/rigid/rigid_hubs.h"
 #include "plan/rigid/rigid_path.h"
@@ -366,12 +367,58 @@ static pir_status note_end(pir_status status, pir_plan_end otherwise, pir_rigid_
     return is_limited ? PIR_OK : status;
 }
 
+/* --- openings --- */
+
+/* Cells of openings are far cheaper than boxes: so many may be made where one box may be; bytes of one. */
+#define CELLS_OF_BOX  64
+#define BYTES_OF_CELL 160
+
+static bool tell_opening(void *context) {
+    const pir_rigid_question *q = context;
+    return !q->progress || q->progress(q->context, 0, 0);
+}
+
+/* The findings of the first process, for all. */
+struct opening_news {
+    pir_status status;
+    pir_opening_result result;
+};
+
+static pir_status share_opening(const pir_plan_ranks *ranks, struct opening_news *news) {
+    void *all = NULL;
+    size_t got = 0;
+    if (!ranks->exchange(ranks->context, news, ranks->number > 0 ? 0 : sizeof *news, &all, &got) || got != sizeof *news)
+        return PIR_ERR_MEMORY;
+    memcpy(news, all, got);
+    return news->status;
+}
+
+/* Looks for a wall that the robot cannot pass; of several processes the first one does. */
+static pir_status try_openings(const pir_rigid_question *q, const pir_plan_ranks *ranks, FILE *proof,
+                               pir_rigid_result *result) {
+    const pir_opening_question question = {q->robot, q->obstacles,         q->low,
+                                           q->high,  {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]}};
+    const uint64_t most = (uint64_t)q->most_boxes * CELLS_OF_BOX, room = q->memory / BYTES_OF_CELL;
+    const uint64_t cells = most < room ? most : room;
+    const pir_opening_budget how = {cells < UINT32_MAX / 2 ? (uint32_t)cells : UINT32_MAX / 2, tell_opening, (void *)q};
+    struct opening_news news = {PIR_OK, {0}};
+    if (!ranks || ranks->number == 0)
+        news.status = pir_opening_decide(&question, &how, proof, &news.result);
+    const pir_status status = ranks ? share_opening(ranks, &news) : news.status;
+    result->cells = news.result.cells;
+    if (status == PIR_OK && news.result.is_closed)
+        result->answer = PIR_TURN_PLAN_NO_PATH;
+    return status == PIR_ERR_LIMIT ? PIR_PLAN_ERR_CALLER : status;
+}
+
 pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
                             pir_rigid_result *ret_result) {
     pir_rigid_job job = {.question = question, .makers = makers};
     *ret_result = (pir_rigid_result){0};
-    const pir_status status = pir_rigid_path_push(question, makers->ranks, ret_result);
-    if (status != PIR_OK || ret_result->answer == PIR_TURN_PLAN_PATH)
+    pir_status status = pir_rigid_path_push(question, makers->ranks, ret_result);
+    if (status == PIR_OK && ret_result->answer == PIR_TURN_PLAN_UNKNOWN && !question->is_boxes_alone)
+        status = try_openings(question, makers->ranks, proof, ret_result);
+    if (status != PIR_OK || ret_result->answer != PIR_TURN_PLAN_UNKNOWN)
         return note_end(status, PIR_PLAN_END_DECIDED, ret_result);
     pir_rigid_hubs_begin(&job);
     pir_rigid_boxes_begin(&job);
