@@ -11,6 +11,7 @@ import copy
 import json
 import os
 import random
+import subprocess
 import sys
 import tempfile
 from fractions import Fraction
@@ -600,7 +601,7 @@ def hold_changes(told, random_, cases, openings):
     return count
 
 
-def main(folder):
+def main(program, folder):
     sys.path.insert(0, folder)
     import motions
     import openings
@@ -611,6 +612,11 @@ def main(folder):
         hold_cover(random_, openings)
     print("cells of which chords block some:", sum(hold_blocked(random_, openings) for _ in range(6 * cases)))
     proofs = made()
+    with tempfile.TemporaryDirectory() as place:  # what the library writes, smallest first
+        path = os.path.join(place, "proof.json")
+        subprocess.run([program, path], check=True, stdout=subprocess.DEVNULL)
+        with open(path, encoding="utf-8") as file:
+            proofs = (*proofs, json.load(file))
     for told in proofs:
         with tempfile.TemporaryDirectory() as place:
             path = os.path.join(place, "proof.json")
@@ -620,7 +626,8 @@ def main(folder):
         if told["holes"]:
             assert not is_wrong(told, random_), "the oracle finds a proof wrong"
             hold_planes(told, random_, 2 * cases)
-    round_, bent, block, closed = proofs
+    round_, bent, block, closed, written = proofs
+    print(hold_lies(written, LIES, random_, 1, openings), "lies about what the library writes are refused")
     count = hold_lies(round_, LIES, random_, cases, openings)
     count += hold_lies(bent, LIES + [parts_parted], random_, max(1, cases // 8), openings)
     count += hold_lies(block, LIES, random_, max(1, cases // 8), openings)
