@@ -28,7 +28,7 @@ struct opening_search {
     double way[MOST_WAYS][3];
     uint32_t ways;
     struct wall_doubt doubt[MOST_WAYS * MOST_HEIGHTS * MOST_PASSING];
-    uint32_t doubts;
+    uint32_t doubts, left; /* cells that may be made yet */
     FILE *proof;
     pir_opening_result *result;
 };
@@ -100,19 +100,20 @@ static pir_status try_piece(struct opening_search *t, const pir_opening_wall *wa
                             bool is_first) {
     const pir_opening_body *body = &t->parts.robot[piece];
     pir_opening_budget how = *t->how;
-    how.cells = is_first && how.cells > FIRST ? FIRST : how.cells;
+    how.cells = is_first && t->left > FIRST ? FIRST : t->left;
     pir_opening_cells cells = {0};
     pir_opening_verdict verdict = PIR_OPENING_CLOSED;
     pir_status status = PIR_OK;
     if (wall->holes > 0)
         status = pir_opening_cells_decide(body, wall->square, &how, &cells, &verdict);
     t->result->cells += cells.count;
+    t->left -= cells.count < t->left ? cells.count : t->left;
     if (status == PIR_OK && verdict == PIR_OPENING_CLOSED) {
         t->result->is_closed = true;
         t->result->cells = cells.count;
         if (t->proof)
             status = pir_opening_write(&t->parts, wall, piece, &cells, t->proof);
-    } else if (status == PIR_OK && verdict == PIR_OPENING_UNKNOWN && is_first && t->how->cells > FIRST) {
+    } else if (status == PIR_OK && verdict == PIR_OPENING_UNKNOWN && is_first && t->left > 0) {
         const double n[3] = {mpq_get_d(wall->n[0]), mpq_get_d(wall->n[1]), mpq_get_d(wall->n[2])};
         t->doubt[t->doubts++] = (struct wall_doubt){{n[0], n[1], n[2]}, d, piece};
     }
@@ -168,6 +169,7 @@ pir_status pir_opening_decide(const pir_opening_question *question, const pir_op
         return PIR_ERR_MEMORY;
     t->question = question;
     t->how = how;
+    t->left = how->cells;
     t->proof = proof;
     t->result = ret_result;
     pir_status status = pir_opening_parts_make(question, &t->parts);

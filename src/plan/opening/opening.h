@@ -17,12 +17,12 @@
 
 typedef struct pir_opening_result {
     bool is_closed;
-    uint32_t cells; /* that planes were divided into, for the wall that decided, or for all of them */
+    uint32_t cells; /* that planes were divided into, for the wall that decided, else for all of them */
 } pir_opening_result;
 
 /*
- * Decides, or leaves it; writes the proof where there is a file. `cells` of the budget is how many may be made for one
- * wall; what its `goes_on` ends is a PIR_ERR_LIMIT.
+ * Decides, or leaves it; writes the proof where there is a file. `cells` of the budget is how many may be made in
+ * all; what its `goes_on` ends is a PIR_ERR_LIMIT.
  */
 pir_status pir_opening_decide(const pir_opening_question *question, const pir_opening_budget *how, FILE *proof,
                               pir_opening_result *ret_result);
