@@ -2,9 +2,8 @@
 /*
  * A convex piece of a robot, and what planes cut of it.
  *
- * A plane is u·y = s in the piece's frame, u on the surface of the cube [−1, 1]³. Doubles here are for
- * choices alone:
- * what is concluded of them is decided anew in rationals (opening_block.h).
+ * A plane is u·y = s in the piece's frame, u on the surface of the cube [−1, 1]³. Doubles here are for choices
+ * alone: what is concluded of them is decided anew in rationals (opening_block.h).
  */
 #ifndef PIR_PLAN_OPENING_OPENING_BODY_H
 #define PIR_PLAN_OPENING_OPENING_BODY_H

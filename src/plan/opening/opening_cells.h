@@ -3,15 +3,14 @@
  * Whether a body can pass a plane with its sections in a disc of a given radius, by division of all planes into cells.
  *
  * Planes that the body has wholly below are the start's region, wholly above the goal's. Cells are leaves of a tree of
- * halvings for each of six charts, and touch where they share a plane, across charts too. Invariants: a leaf may have a
- * block that holds in rationals; else it is labelled. Leaves that may meet a region are known by doubles with a proven
- * bound, so the others do not meet it.
+ * halvings for each of six charts, and touch where they share a plane, across charts too. Invariants: a leaf may have
+ * a block that holds in rationals; else it is labelled. Leaves that may meet a region are known by doubles with a
+ * proven bound, so the others do not meet it.
  *
- * From both regions labels spread, cell by cell, first those whose planes all have small circles, blocks
- * excepted. Where
- * labels meet, the cell with the larger circles is to be blocked; one that cannot be is halved, and all is labelled
- * anew. Where no labels meet the body cannot pass. Where they meet, and all circles on the way are small enough, it is
- * likely to pass. Where cells become too many it is not decided.
+ * From both regions labels spread, cell by cell, first those whose planes all have small circles, blocks excepted.
+ * Where labels meet, the cell with the larger circles is to be blocked; one that cannot be is halved, and all is
+ * labelled anew. Where no labels meet the body cannot pass. Where they meet, and all circles on the way are small
+ * enough, it is likely to pass. Where cells become too many it is not decided.
  */
 #ifndef PIR_PLAN_OPENING_OPENING_CELLS_H
 #define PIR_PLAN_OPENING_OPENING_CELLS_H

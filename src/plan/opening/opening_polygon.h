@@ -49,8 +49,7 @@ void pir_opening_polygon_bound(pir_opening_polygon *polygon);
 
 /*
  * The part within a half-space, or beyond it where `beyond`; without corners where it has no inside, or, where
- * `closed`,
- * no point. False when out of memory.
+ * `closed`, no point. False when out of memory.
  */
 bool pir_opening_polygon_clip(const pir_opening_polygon *polygon, const pir_opening_half *half, bool beyond,
                               bool closed, pir_opening_polygon *ret_part);

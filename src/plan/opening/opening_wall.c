@@ -241,7 +241,8 @@ static bool make_places(const pir_opening_parts *parts, const pir_opening_half *
 static bool is_cut(const pir_opening_body *body, const pir_opening_half *plane) {
     bool has[3] = {false, false, false};
     const double n[3] = {mpq_get_d(plane->m[0]), mpq_get_d(plane->m[1]), mpq_get_d(plane->m[2])};
-    const double d = mpq_get_d(plane->c), room = body->reach * 0x1p-40 + fabs(d) * 0x1p-40; // n is about 1 long
+    // no coordinate of n is above 1 by more than roundings, so heights are within 2^-50 of the reach, as in may_meet
+    const double d = mpq_get_d(plane->c), room = body->reach * 0x1p-40 + fabs(d) * 0x1p-40;
     double low = INFINITY, high = -INFINITY;
     for (uint32_t v = 0; v < body->vertices; v++) {
         low = fmin(low, pir_opening_height(body, v, n));

@@ -2,12 +2,11 @@
 /*
  * Walls of obstacles that a piece of the robot has to pass, and the holes in them.
  *
- * A plane n·x = d cuts pieces of the obstacles, in a set W. A piece K of the robot is on its side n·x < d at
- * the start,
- * on the other at the goal, wholly. A point p within K can be at places in Q alone: the bounds, as much wider as p is
- * far from the origin. Invariants of a wall, each in rationals: the part of Q in the plane that is not in W is in
- * holes, but for what has no area. A hole is a union of convex polygons, of whose sides every point is in W, or on a
- * side of another one that runs the other way. So the hole's boundary is in W.
+ * A plane n·x = d cuts pieces of the obstacles, in a set W. A piece K of the robot is on its side n·x < d at the
+ * start, on the other at the goal, wholly. A point p within K can be at places in Q alone: the bounds, as much wider
+ * as p is far from the origin. Invariants of a wall, each in rationals: the part of Q in the plane that is not in W is
+ * in holes, but for what has no area. A hole is a union of convex polygons, of whose sides every point is in W, or on
+ * a side of another one that runs the other way. So the hole's boundary is in W.
  *
  * On a free way, from when K last leaves the side of the start, until it is on the other for the first time, the plane
  * cuts the inside of K, in a connected set that misses W. As p passes the plane it is in a hole; what is cut cannot

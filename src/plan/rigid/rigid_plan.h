@@ -5,9 +5,8 @@
  * First some straight ways are pushed to where the robot has room (plan/band): most paths are found so, in a time that
  * hardly depends on how narrow they are. Where none is, boxes are made.
  *
- * Then walls with holes that are too narrow are looked for (plan/opening), which have three degrees of freedom,
- * not six.
- * Where there is none of these, or it is not decided:
+ * Then walls with holes that are too narrow are looked for (plan/opening), which have three degrees of freedom, not
+ * six. Where there is none of these, or it is not decided:
  *
  * Rotations are divided into boxes (rotation_box.h). For each box the translations are divided for inner sums
  * (inner_sums.h): what they have is blocked at every rotation of the box. Free cells of boxes that share a rotation
