@@ -86,6 +86,31 @@ void pir_plan_put_pieces(pir_plan_writer *w, const char *name, const pir_plan_pi
     put_text(w, "]");
 }
 
+void pir_plan_put_rationals(pir_plan_writer *w, const mpq_t *x, int count) {
+    for (int k = 0; k < count; k++)
+        put_rational(w, x[k], k == 0 ? "[" : ", ");
+    put_text(w, "]");
+}
+
+void pir_plan_put_asked(pir_plan_writer *w, const char *kind, const pir_plan_asked *asked) {
+    const struct {
+        const char *name;
+        const double *x;
+    } member[] = {{"low", asked->low}, {"high", asked->high}, {"from", asked->at[0]}, {"to", asked->at[1]}};
+    fprintf(w->file, "{\"%s\": 1", kind);
+    for (int i = 0; i < 4; i++) {
+        fprintf(w->file, ",\n \"%s\": ", member[i].name);
+        pir_plan_put_doubles(w, member[i].x, 3);
+    }
+    for (int i = 0; i < 2; i++) {
+        const pir_quat r = asked->rotation[i];
+        fprintf(w->file, ",\n \"%s_rotation\": ", member[2 + i].name);
+        pir_plan_put_doubles(w, (const double[]){r.x, r.y, r.z, r.w}, 4);
+    }
+    pir_plan_put_pieces(w, "robot", asked->robot);
+    pir_plan_put_pieces(w, "obstacles", asked->obstacles);
+}
+
 /* A half-space as a, b, c, d of a·x + b·y + c·z ≤ d. */
 static void put_half(pir_plan_writer *w, uint32_t half, const char *before) {
     const pir_plan_plane *p = &w->space->plane[half >> 1];

@@ -24,6 +24,19 @@ typedef struct pir_plan_writer {
 
 void pir_plan_put_doubles(pir_plan_writer *writer, const double *x, int count);
 
+/* A list of rationals. */
+void pir_plan_put_rationals(pir_plan_writer *writer, const mpq_t *x, int count);
+
+/* A question about any motion: bounds of translations, where the robot is at both ends, and pieces; borrowed. */
+typedef struct pir_plan_asked {
+    const double *low, *high, *at[2]; /* of three each */
+    pir_quat rotation[2];
+    const pir_plan_pieces *robot, *obstacles;
+} pir_plan_asked;
+
+/* The beginning of an object that proves something about it: a member of a name, 1, and the question. */
+void pir_plan_put_asked(pir_plan_writer *writer, const char *kind, const pir_plan_asked *asked);
+
 /* A member of an object: the list of convex pieces. */
 void pir_plan_put_pieces(pir_plan_writer *writer, const char *name, const pir_plan_pieces *pieces);
 

@@ -22,7 +22,7 @@ struct wall_doubt {
 };
 
 struct opening_search {
-    const pir_opening_question *question;
+    const pir_plan_asked *question;
     const pir_opening_budget *how;
     pir_opening_parts parts;
     double way[MOST_WAYS][3];
@@ -114,7 +114,7 @@ static pir_status try_piece(struct opening_search *t, const pir_opening_wall *wa
         if (t->proof)
             status = pir_opening_write(&t->parts, wall, piece, &cells, t->proof);
     } else if (status == PIR_OK && verdict == PIR_OPENING_UNKNOWN && is_first && t->left > 0) {
-        const double n[3] = {mpq_get_d(wall->n[0]), mpq_get_d(wall->n[1]), mpq_get_d(wall->n[2])};
+        const double n[3] = {mpq_get_d(wall->plane[0]), mpq_get_d(wall->plane[1]), mpq_get_d(wall->plane[2])};
         t->doubt[t->doubts++] = (struct wall_doubt){{n[0], n[1], n[2]}, d, piece};
     }
     pir_opening_cells_finish(&cells);
@@ -161,7 +161,17 @@ static pir_status try_way(struct opening_search *t, const double way[3]) {
     return status;
 }
 
-pir_status pir_opening_decide(const pir_opening_question *question, const pir_opening_budget *how, FILE *proof,
+static pir_status try_all(struct opening_search *t) {
+    pir_status status = PIR_OK;
+    list_ways(t);
+    for (uint32_t i = 0; i < t->ways && status == PIR_OK && !t->result->is_closed; i++)
+        status = try_way(t, t->way[i]);
+    for (uint32_t i = 0; i < t->doubts && status == PIR_OK && !t->result->is_closed; i++)
+        status = try_again(t, &t->doubt[i]);
+    return status;
+}
+
+pir_status pir_opening_decide(const pir_plan_asked *question, const pir_opening_budget *how, FILE *proof,
                               pir_opening_result *ret_result) {
     struct opening_search *t = calloc(1, sizeof *t);
     *ret_result = (pir_opening_result){0};
@@ -174,11 +184,9 @@ pir_status pir_opening_decide(const pir_opening_question *question, const pir_op
     t->result = ret_result;
     pir_status status = pir_opening_parts_make(question, &t->parts);
     if (status == PIR_OK)
-        list_ways(t);
-    for (uint32_t i = 0; i < t->ways && status == PIR_OK && !ret_result->is_closed; i++)
-        status = try_way(t, t->way[i]);
-    for (uint32_t i = 0; i < t->doubts && status == PIR_OK && !ret_result->is_closed; i++)
-        status = try_again(t, &t->doubt[i]);
+        status = try_all(t);
+    else if (status == PIR_ERR_LIMIT)
+        status = PIR_OK; // left to others
     pir_opening_parts_finish(&t->parts);
     free(t);
     return status;

@@ -24,7 +24,7 @@ typedef struct pir_opening_result {
  * Decides, or leaves it; writes the proof where there is a file. `cells` of the budget is how many may be made in
  * all; what its `goes_on` ends is a PIR_ERR_LIMIT.
  */
-pir_status pir_opening_decide(const pir_opening_question *question, const pir_opening_budget *how, FILE *proof,
+pir_status pir_opening_decide(const pir_plan_asked *question, const pir_opening_budget *how, FILE *proof,
                               pir_opening_result *ret_result);
 
 #endif

@@ -65,7 +65,6 @@ static void look_at(pir_opening_cells *t, pir_opening_cell *cell) {
                           corner[c]);
     cell->most =
         pir_opening_body_most(t->body, u, (const double(*)[3])corner, (const double[2]){cell->low[2], cell->high[2]});
-    t->circles++;
     cell->child = cell->block = NONE;
     cell->halved = cell->label = -1;
     cell->is_due = false;
@@ -201,7 +200,6 @@ static bool block(pir_opening_cells *t, uint32_t of, int *ret_axis) {
     pir_opening_range range;
     pir_opening_block block;
     pir_opening_range_of(&t->cell[of], &range);
-    t->tries++;
     const double more = pir_opening_block_seek(t->body, &range, t->square, &block, ret_axis);
     if (!(t->cell[of].square > t->square && more > 0) ||
         !pir_opening_block_holds(t->body, &range, t->exact_square, &block) ||

@@ -46,7 +46,6 @@ typedef struct pir_opening_cells {
     bool is_passable;
     pir_opening_block *block;
     uint32_t blocks, block_room;
-    uint64_t circles, tries;             /* that were made, of blocks */
     uint32_t *queue, queued, queue_room; /* a heap */
     uint32_t *due, dues, due_room;
 } pir_opening_cells;

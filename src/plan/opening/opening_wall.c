@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include <pirouette/mass.h>
+
 #define MOST_PARTS 1024
 
 /* --- pieces --- */
@@ -42,20 +44,35 @@ static void mean_of(const pir_opening_body *body, mpq_t mean[3], mpq_t far) {
     mpq_clear(t);
 }
 
-pir_status pir_opening_parts_make(const pir_opening_question *question, pir_opening_parts *ret_parts) {
+/* A piece of the robot at an end. */
+static pir_status make_end(const pir_plan_asked *question, uint32_t piece, int end, pir_opening_body *ret_body) {
+    const double *x = question->at[end];
+    const pir_pose pose = {question->rotation[end], {x[0], x[1], x[2]}};
+    pir_polytope *moved = NULL;
+    pir_status status = pir_polytope_transform(question->robot->at[piece], pose, &moved);
+    if (status == PIR_OK)
+        status = pir_opening_body_make(moved, ret_body);
+    pir_polytope_release(moved);
+    return status;
+}
+
+pir_status pir_opening_parts_make(const pir_plan_asked *question, pir_opening_parts *ret_parts) {
     const uint32_t robots = question->robot->count, obstacles = question->obstacles->count;
     pir_opening_parts p = {.question = *question,
                            .robot = calloc(robots + 1, sizeof *p.robot),
                            .obstacle = calloc(obstacles + 1, sizeof *p.obstacle),
+                           .at = {calloc(robots + 1, sizeof **p.at), calloc(robots + 1, sizeof **p.at)},
                            .facet = calloc(obstacles + 1, sizeof *p.facet),
                            .point = calloc(robots + 1, sizeof *p.point)};
     mpq_t far;
     mpq_inits(p.reach, far, NULL);
-    pir_status status = p.robot && p.obstacle && p.facet && p.point ? PIR_OK : PIR_ERR_MEMORY;
+    pir_status status = p.robot && p.obstacle && p.at[0] && p.at[1] && p.facet && p.point ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < robots && p.point; i++)
         mpq_inits(p.point[i][0], p.point[i][1], p.point[i][2], NULL);
     for (uint32_t i = 0; i < robots && status == PIR_OK; i++) {
         status = pir_opening_body_make(question->robot->at[i], &p.robot[i]);
+        for (int end = 0; end < 2 && status == PIR_OK; end++)
+            status = make_end(question, i, end, &p.at[end][i]);
         if (status == PIR_OK)
             mean_of(&p.robot[i], p.point[i], far);
         if (mpq_cmp(far, p.reach) > 0)
@@ -75,6 +92,9 @@ void pir_opening_parts_finish(pir_opening_parts *parts) {
     for (uint32_t i = 0; i < parts->question.robot->count; i++) {
         if (parts->robot)
             pir_opening_body_finish(&parts->robot[i]);
+        for (int end = 0; end < 2; end++)
+            if (parts->at[end])
+                pir_opening_body_finish(&parts->at[end][i]);
         if (parts->point)
             mpq_clears(parts->point[i][0], parts->point[i][1], parts->point[i][2], NULL);
     }
@@ -88,6 +108,8 @@ void pir_opening_parts_finish(pir_opening_parts *parts) {
             pir_opening_body_finish(&parts->obstacle[i]);
     }
     free(parts->robot);
+    free(parts->at[0]);
+    free(parts->at[1]);
     free(parts->obstacle);
     free(parts->facet);
     free(parts->point);
@@ -97,52 +119,17 @@ void pir_opening_parts_finish(pir_opening_parts *parts) {
 
 /* --- which pieces have to pass --- */
 
-/* R·v for a quaternion of any length: v + 2(w·t + u × t) / |q|², t = u × v. */
-static void turn(const mpq_t q[4], const mpq_t v[3], mpq_t ret[3]) {
-    mpq_t t[3], size, x;
-    mpq_inits(t[0], t[1], t[2], size, x, NULL);
-    for (int k = 0; k < 4; k++) {
-        mpq_mul(x, q[k], q[k]);
-        mpq_add(size, size, x);
-    }
-    for (int k = 0; k < 3; k++) {
-        mpq_mul(t[k], q[(k + 1) % 3], v[(k + 2) % 3]);
-        mpq_mul(x, q[(k + 2) % 3], v[(k + 1) % 3]);
-        mpq_sub(t[k], t[k], x);
-    }
-    for (int k = 0; k < 3; k++) {
-        mpq_mul(ret[k], q[3], t[k]);
-        mpq_mul(x, q[(k + 1) % 3], t[(k + 2) % 3]);
-        mpq_add(ret[k], ret[k], x);
-        mpq_mul(x, q[(k + 2) % 3], t[(k + 1) % 3]);
-        mpq_sub(ret[k], ret[k], x);
-        mpq_mul_2exp(ret[k], ret[k], 1);
-        mpq_div(ret[k], ret[k], size);
-        mpq_add(ret[k], ret[k], v[k]);
-    }
-    mpq_clears(t[0], t[1], t[2], size, x, NULL);
-}
-
 /* On which side of a half-space's plane a piece is at an end, strictly; 0 where on both. */
-static int side_at(const pir_opening_parts *parts, uint32_t piece, int end, const pir_opening_half *plane) {
-    const pir_quat r = parts->question.rotation[end];
-    const double q[4] = {r.x, r.y, r.z, r.w};
-    mpq_t exact[4], x[3], value;
+static int side_at(const pir_opening_body *body, const pir_opening_half *plane) {
+    mpq_t value;
     int side = 2;
-    mpq_inits(exact[0], exact[1], exact[2], exact[3], x[0], x[1], x[2], value, NULL);
-    for (int k = 0; k < 4; k++)
-        mpq_set_d(exact[k], q[k]);
-    for (uint32_t v = 0; v < parts->robot[piece].vertices && side != 0; v++) {
-        turn((const mpq_t *)exact, (const mpq_t *)parts->robot[piece].exact[v], x);
-        for (int k = 0; k < 3; k++) {
-            mpq_set_d(value, parts->question.at[end][k]);
-            mpq_add(x[k], x[k], value);
-        }
-        pir_opening_half_value(plane, (const mpq_t *)x, value);
+    mpq_init(value);
+    for (uint32_t v = 0; v < body->vertices && side != 0; v++) {
+        pir_opening_half_value(plane, (const mpq_t *)body->exact[v], value);
         const int sign = mpq_sgn(value);
         side = side == 2 || side == sign ? sign : 0;
     }
-    mpq_clears(exact[0], exact[1], exact[2], exact[3], x[0], x[1], x[2], value, NULL);
+    mpq_clear(value);
     return side;
 }
 
@@ -150,7 +137,7 @@ static int side_at(const pir_opening_parts *parts, uint32_t piece, int end, cons
 static bool list_pieces(const pir_opening_parts *parts, const pir_opening_half *plane, pir_opening_wall *wall) {
     wall->piece = calloc(parts->question.robot->count + 1, sizeof *wall->piece);
     for (uint32_t i = 0; i < parts->question.robot->count && wall->piece; i++)
-        if (side_at(parts, i, 0, plane) < 0 && side_at(parts, i, 1, plane) > 0)
+        if (side_at(&parts->at[0][i], plane) < 0 && side_at(&parts->at[1][i], plane) > 0)
             wall->piece[wall->pieces++] = i;
     return wall->piece;
 }
@@ -552,7 +539,7 @@ static void make_disc(const mpq_t n[3], pir_opening_hole *hole, mpq_t square) {
 /* Makes the hole of a group; false when out of memory or where it is open. */
 static bool make_hole(const pir_opening_polygons *sections, const pir_opening_polygons *rest, const uint32_t *group,
                       uint32_t of, pir_opening_wall *wall, bool *ret_open) {
-    const mpq_t *n = (const mpq_t *)wall->n;
+    const mpq_t *n = (const mpq_t *)wall->plane;
     pir_opening_hole *hole = &wall->hole[wall->holes++];
     *ret_open = false;
     if (!add_hull(n, rest, group, of, UINT32_MAX, &hole->parts))
@@ -580,7 +567,7 @@ static bool make_holes(const pir_opening_polygons *sections, const pir_opening_p
         for (uint32_t j = 0; j < i && good; j++) {
             if (group[j] == group[i])
                 continue;
-            good = do_meet((const mpq_t *)wall->n, &rest->at[i], &rest->at[j], &meet);
+            good = do_meet((const mpq_t *)wall->plane, &rest->at[i], &rest->at[j], &meet);
             const uint32_t from = group[j];
             for (uint32_t k = 0; k < i && meet && good; k++)
                 group[k] = group[k] == from ? group[i] : group[k];
@@ -601,19 +588,19 @@ pir_status pir_opening_wall_make(const pir_opening_parts *parts, const double n[
     pir_opening_polygon places = {0}, around = {0};
     pir_opening_polygons sections = {0}, rest = {0};
     bool is_none = false;
-    mpq_inits(wall.n[0], wall.n[1], wall.n[2], wall.d, wall.square, NULL);
+    mpq_inits(wall.plane[0], wall.plane[1], wall.plane[2], wall.plane[3], wall.square, NULL);
     pir_opening_half_init(&plane);
     for (int k = 0; k < 3; k++) {
-        mpq_set_d(wall.n[k], n[k]);
+        mpq_set_d(wall.plane[k], n[k]);
         mpq_set_d(plane.m[k], n[k]);
     }
-    mpq_set_d(wall.d, d);
+    mpq_set_d(wall.plane[3], d);
     mpq_set_d(plane.c, d);
     bool good = list_pieces(parts, &plane, &wall);
     if (good && wall.pieces > 0)
         good = make_places(parts, &plane, 0, &places) && make_places(parts, &plane, 1, &around) &&
                make_sections(parts, &plane, &around, &sections) &&
-               make_rest((const mpq_t *)wall.n, &sections, &places, &rest, &is_none) &&
+               make_rest((const mpq_t *)wall.plane, &sections, &places, &rest, &is_none) &&
                (is_none || make_holes(&sections, &rest, &wall, &is_none));
     if (is_none)
         wall.pieces = 0;
@@ -631,6 +618,6 @@ void pir_opening_wall_finish(pir_opening_wall *wall) {
         pir_opening_polygons_free(&wall->hole[i].parts);
     free(wall->hole);
     free(wall->piece);
-    mpq_clears(wall->n[0], wall->n[1], wall->n[2], wall->d, wall->square, NULL);
+    mpq_clears(wall->plane[0], wall->plane[1], wall->plane[2], wall->plane[3], wall->square, NULL);
     *wall = (pir_opening_wall){0};
 }

@@ -18,14 +18,7 @@
 
 #include "plan/opening/opening_body.h"
 #include "plan/opening/opening_polygon.h"
-#include "plan/plan_sums.h"
-
-typedef struct pir_opening_question {
-    const pir_plan_pieces *robot, *obstacles; /* borrowed */
-    const double *low, *high;                 /* bounds of translations, of three each */
-    const double *at[2];                      /* translations at the start and at the goal */
-    pir_quat rotation[2];
-} pir_opening_question;
+#include "plan/plan_write.h"
 
 typedef struct pir_opening_hole {
     pir_opening_polygons parts;
@@ -33,7 +26,7 @@ typedef struct pir_opening_hole {
 } pir_opening_hole;
 
 typedef struct pir_opening_wall {
-    mpq_t n[3], d, square;
+    mpq_t plane[4], square; /* n and d; of the disc */
     pir_opening_hole *hole;
     uint32_t holes;
     uint32_t *piece, pieces; /* of the robot: those that have to pass */
@@ -41,14 +34,16 @@ typedef struct pir_opening_wall {
 
 /* Exact pieces, of which walls are made. */
 typedef struct pir_opening_parts {
-    pir_opening_question question;
+    pir_plan_asked question;
     pir_opening_body *robot, *obstacle;
+    pir_opening_body *at[2];  /* pieces of the robot, as they are at both ends */
     pir_opening_half **facet; /* of each obstacle */
     mpq_t (*point)[3];        /* of each piece of the robot, the one within it: the mean of its vertices */
     mpq_t reach;              /* above how far these are from the origin */
 } pir_opening_parts;
 
-pir_status pir_opening_parts_make(const pir_opening_question *question, pir_opening_parts *ret_parts);
+/* PIR_ERR_LIMIT where numbers become too long. */
+pir_status pir_opening_parts_make(const pir_plan_asked *question, pir_opening_parts *ret_parts);
 void pir_opening_parts_finish(pir_opening_parts *parts);
 
 /*

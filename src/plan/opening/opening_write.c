@@ -9,44 +9,10 @@
 
 #include "plan/plan_write.h"
 
-static void put_vector(FILE *file, const mpq_t x[3]) {
-    for (int k = 0; k < 3; k++) {
-        fputs(k == 0 ? "[\"" : ", \"", file);
-        mpq_out_str(file, 10, x[k]);
-        fputc('"', file);
-    }
-    fputs("]", file);
-}
-
-static void put_question(pir_plan_writer *w, const pir_opening_question *q) {
-    const struct {
-        const char *name;
-        const double *x;
-    } member[] = {{"{\"openings\": 1,\n \"low\": ", q->low},
-                  {",\n \"high\": ", q->high},
-                  {",\n \"from\": ", q->at[0]},
-                  {",\n \"to\": ", q->at[1]}};
-    for (int i = 0; i < 4; i++) {
-        fputs(member[i].name, w->file);
-        pir_plan_put_doubles(w, member[i].x, 3);
-    }
-    for (int i = 0; i < 2; i++) {
-        const pir_quat r = q->rotation[i];
-        fputs(i == 0 ? ",\n \"from_rotation\": " : ",\n \"to_rotation\": ", w->file);
-        pir_plan_put_doubles(w, (const double[]){r.x, r.y, r.z, r.w}, 4);
-    }
-    pir_plan_put_pieces(w, "robot", q->robot);
-    pir_plan_put_pieces(w, "obstacles", q->obstacles);
-}
-
 static void put_wall(pir_plan_writer *w, const pir_opening_wall *wall) {
-    fputs(",\n \"plane\": [", w->file);
-    for (int k = 0; k < 4; k++) {
-        fputs(k == 0 ? "\"" : ", \"", w->file);
-        mpq_out_str(w->file, 10, k < 3 ? wall->n[k] : wall->d);
-        fputc('"', w->file);
-    }
-    fputs("],\n \"holes\": [", w->file);
+    fputs(",\n \"plane\": ", w->file);
+    pir_plan_put_rationals(w, (const mpq_t *)wall->plane, 4);
+    fputs(",\n \"holes\": [", w->file);
     for (uint32_t i = 0; i < wall->holes; i++) {
         fputs(i == 0 ? "\n  {\"centre\": " : ",\n  {\"centre\": ", w->file);
         pir_plan_put_doubles(w, wall->hole[i].centre, 3);
@@ -55,7 +21,7 @@ static void put_wall(pir_plan_writer *w, const pir_opening_wall *wall) {
             const pir_opening_polygon *part = &wall->hole[i].parts.at[p];
             for (uint32_t c = 0; c < part->count; c++) {
                 fputs(c > 0 ? ", " : p == 0 ? "[" : ", [", w->file);
-                put_vector(w->file, (const mpq_t *)part->at[c]);
+                pir_plan_put_rationals(w, (const mpq_t *)part->at[c], 3);
             }
             fputs("]", w->file);
         }
@@ -100,16 +66,16 @@ static void put_cells(const pir_opening_cells *cells, uint32_t root, bool is_tex
 
 pir_status pir_opening_write(const pir_opening_parts *parts, const pir_opening_wall *wall, uint32_t piece,
                              const pir_opening_cells *cells, FILE *file) {
-    const pir_opening_question *q = &parts->question;
+    const pir_plan_asked *q = &parts->question;
     const uint32_t own = pir_plan_most_corners(q->robot), other = pir_plan_most_corners(q->obstacles);
     pir_plan_writer w = {.file = file, .corner = calloc(own > other ? own : other, sizeof *w.corner)};
     if (!w.corner)
         return PIR_ERR_MEMORY;
     mpq_init(w.x);
-    put_question(&w, q);
+    pir_plan_put_asked(&w, "openings", q);
     put_wall(&w, wall);
     fprintf(file, ",\n \"piece\": %u,\n \"point\": ", piece);
-    put_vector(file, (const mpq_t *)parts->point[piece]);
+    pir_plan_put_rationals(&w, (const mpq_t *)parts->point[piece], 3);
     fputs(",\n \"reach\": ", file);
     mpq_set_d(w.x, parts->robot[piece].reach);
     fputc('"', file);

@@ -396,8 +396,8 @@ static pir_status share_opening(const pir_plan_ranks *ranks, struct opening_news
 /* Looks for a wall that the robot cannot pass; of several processes the first one does. */
 static pir_status try_openings(const pir_rigid_question *q, const pir_plan_ranks *ranks, FILE *proof,
                                pir_rigid_result *result) {
-    const pir_opening_question question = {q->robot, q->obstacles,         q->low,
-                                           q->high,  {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]}};
+    const pir_plan_asked question = {q->low,   q->high,     {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]},
+                                     q->robot, q->obstacles};
     const uint64_t most = (uint64_t)q->most_boxes * CELLS_OF_BOX, room = q->memory / BYTES_OF_CELL;
     const uint64_t cells = most < room ? most : room;
     const pir_opening_budget how = {cells < UINT32_MAX / 2 ? (uint32_t)cells : UINT32_MAX / 2, tell_opening, (void *)q};

@@ -43,25 +43,9 @@ static void put_symmetries(pir_plan_writer *w, const pir_symmetries *s) {
 }
 
 static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
-    const struct {
-        const char *name;
-        const double *x;
-    } member[] = {{"{\"motions\": 1,\n \"low\": ", q->low},
-                  {",\n \"high\": ", q->high},
-                  {",\n \"from\": ", q->at[0]},
-                  {",\n \"to\": ", q->at[1]}};
-    for (int i = 0; i < 4; i++) {
-        fputs(member[i].name, w->file);
-        pir_plan_put_doubles(w, member[i].x, 3);
-    }
-    for (int i = 0; i < 2; i++) {
-        const pir_quat r = q->rotation[i];
-        const double x[4] = {r.x, r.y, r.z, r.w};
-        fputs(i == 0 ? ",\n \"from_rotation\": " : ",\n \"to_rotation\": ", w->file);
-        pir_plan_put_doubles(w, x, 4);
-    }
-    pir_plan_put_pieces(w, "robot", q->robot);
-    pir_plan_put_pieces(w, "obstacles", q->wide);
+    const pir_plan_asked asked = {q->low,   q->high, {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]},
+                                  q->robot, q->wide};
+    pir_plan_put_asked(w, "motions", &asked);
     if (q->symmetries.count > 1)
         put_symmetries(w, &q->symmetries);
 }
