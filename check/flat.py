@@ -95,6 +95,19 @@ class Plane:
     def flat(self, p):
         return tuple(p[k] for k in self.axes)
 
+    def wider(self, polygon, room):
+        """A polygon widened about the mean of its corners, in 2^-64, by 2^-k of its size, k least such that none moves
+        by more than room."""
+        mean = [Fraction(sum(p[i] for p in polygon) * (1 << 64) // len(polygon), 1 << 64) for i in range(2)]
+        a, b, c = (self.n[k] for k in (*self.axes, 3 - sum(self.axes)))
+        most, part = max(abs(x) + abs(y) + abs((a * x + b * y) / c)
+                         for x, y in ((p[0] - mean[0], p[1] - mean[1]) for p in polygon)), Fraction(1)
+        if not room:
+            return polygon
+        while part * most > room:
+            part /= 2
+        return [tuple(x + part * (x - m) for x, m in zip(p, mean)) for p in polygon]
+
     def section(self, points):
         """The section of the hull of points, where some are before the plane and some beyond: else none."""
         told = [(self.flat(p), self.above(p)) for p in points]

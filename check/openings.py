@@ -15,6 +15,11 @@ within the bounds can take it. Q without W is within holes. A hole is a group of
 in W or along opposite edges of the group, so that the section does not leave it. So the section stays in a disc whose
 square radius is that of the widest hole. Where there is no hole, that is a contradiction.
 
+Of two obstacles that nearly touch the slit between them is no part of a hole, and a corner of K may be in it. So K may
+stand for K made smaller about its point, by a part of 2^-shrink: that is farther from the obstacles, by the same part
+of the distance from the point to K's facets, at least by `room`. Then sections may be wider by `room`: each is, about
+the mean of its corners, by the largest power of two of its size that moves none farther.
+
 As K sees it, the plane is u.x = s, u on the surface of the cube [-1, 1]^3. No |s| is above the sum of |coordinates| of
 a corner that the plane meets. So in (u, s) the motion goes from START, where K is on the side u.x <= s, to GOAL, where
 it is on the other one. Cells cover all (u, s). A blocked cell has chords A B of K, which planes of the cell cross, with
@@ -25,6 +30,7 @@ above the square radius, the section is in no such disc. The other cells are of 
 side -, which do not meet START. None of + meets one of -, in which the motion would have to be in turn: there is none.
 """
 import sys
+from fractions import Fraction
 from itertools import product
 from math import lcm
 
@@ -178,7 +184,14 @@ class Openings:
         need(0 <= told["piece"] < len(bodies[0]), "no such piece of the robot")
         self.piece, self.point = bodies[0][told["piece"]], vector(told["point"])
         need(all(dot(n, self.point) < d for n, d in self.piece.planes), "the point is not inside the piece")
-        self.sections = [section for section in (self.plane.section(o.points) for o in bodies[1]) if section]
+        part, self.room = Fraction(1, 1 << told.get("shrink", 0)), vector([told.get("room", "0")], 1)[0]
+        need(self.room >= 0 and (self.room == 0 or all((part * (d - dot(n, self.point))) ** 2 >= self.room ** 2 *
+                                                       dot(n, n) for n, d in self.piece.planes)),
+             "the smaller piece is not as far inside of the piece")
+        self.points = [tuple(x + part * (y - x) for x, y in zip(p, self.point)) if self.room else p
+                       for p in self.piece.points]
+        sections = (self.plane.section(o.points) for o in bodies[1])
+        self.sections = [self.plane.wider(section, self.room) for section in sections if section]
         self.holes = [Hole(self.plane, hole) for hole in told["holes"]]
 
     def check_ends(self):
@@ -212,7 +225,7 @@ class Openings:
             return "no path: a plane is closed where the robot could cross it"
         reach = vector([self.told["reach"]], 1)[0]
         need(all(sum(abs(x) for x in p) <= reach for p in self.piece.points), "planes farther away meet the piece")
-        charts = Charts(self.piece.points, reach, max(hole.square for hole in self.holes))
+        charts = Charts(self.points, reach, max(hole.square for hole in self.holes))
         told = self.told["charts"]
         need(sorted((chart["axis"], chart["sign"]) for chart in told) == list(product(range(3), (-1, 1))),
              "there is to be one chart for each side of a cube")

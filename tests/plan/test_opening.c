@@ -55,7 +55,12 @@ struct round_window {
     pir_rigid_plan_input input;
 };
 
-static void make_round(double diameter, struct round_window *w) {
+static double moved(double x, bool is_moved) {
+    return !is_moved || rand() % 3 == 0 ? x : nextafter(x, rand() % 2 ? 9 : -9);
+}
+
+/* With corners of each sector moved by an ulp, or not, such that some overlap and others leave slits. */
+static void make_round(double diameter, bool is_moved, struct round_window *w) {
     const double e = sqrt(1. / 8), step = acos(-1) / 12;
     const pir_vec3 p[4] = {{e, e, e}, {e, -e, -e}, {-e, e, -e}, {-e, -e, e}};
     pir_polytope *shape = NULL;
@@ -65,7 +70,8 @@ static void make_round(double diameter, struct round_window *w) {
         for (int k = 0; k < 8; k++) {
             // both sectors on a corner have it in the same doubles
             const double angle = step * ((i + (k & 1)) % 24), radius = k & 2 ? 3 : diameter / 2;
-            q[k] = (pir_vec3){radius * cos(angle), radius * sin(angle), k & 4 ? 0x1p-20 : -0x1p-20};
+            q[k] = (pir_vec3){moved(radius * cos(angle), is_moved), moved(radius * sin(angle), is_moved),
+                              moved(k & 4 ? 0x1p-20 : -0x1p-20, is_moved)};
         }
         assert_int_equal(pir_polytope_create(q, 8, NULL, &shape), PIR_OK);
         assert_int_equal(pir_solid_from_polytope(shape, NULL, &w->sector[i]), PIR_OK);
@@ -92,14 +98,15 @@ static void test_windows(void **state) {
     (void)state;
     const double diameter[] = {.2, .97, .5, .7, .8};
     const size_t cases = getenv("PIR_TEST_CASES") ? sizeof diameter / sizeof *diameter : 2;
-    for (size_t i = 0; i < cases; i++) {
+    for (size_t i = 0; i < 2 * cases; i++) {
         struct round_window w;
         char *proof[2];
-        make_round(diameter[i], &w);
+        const double d = diameter[i / 2];
+        make_round(d, i % 2, &w);
         for (uint32_t k = 0; k < 2; k++) {
             const pir_rigid_plan_info info = ask(&w.input, false, 32768, k + 1, NULL, 0, &proof[k]);
-            printf("window %g: answer %d, %u cells\n", diameter[i], (int)info.answer, info.cells);
-            assert_int_equal(info.answer, diameter[i] < .895 ? PIR_TURN_PLAN_NO_PATH : PIR_TURN_PLAN_PATH);
+            printf("window %g: answer %d, %u cells\n", d, (int)info.answer, info.cells);
+            assert_int_equal(info.answer, d < .895 ? PIR_TURN_PLAN_NO_PATH : PIR_TURN_PLAN_PATH);
             assert_int_equal(info.boxes, 0);
             assert_int_equal(info.cells > 0, info.answer == PIR_TURN_PLAN_NO_PATH);
         }
@@ -116,7 +123,7 @@ static void test_budgets(void **state) {
     struct round_window w;
     uint32_t calls = 0, all;
     char *proof;
-    make_round(.5, &w);
+    make_round(.5, false, &w);
     pir_rigid_plan_info info = ask(&w.input, false, 32, 1, NULL, 0, &proof);
     assert_true(info.answer != PIR_TURN_PLAN_PATH && info.boxes >= 32 && info.cells > 0);
     free(proof);
@@ -223,7 +230,7 @@ static void test_gates(void **state) {
 static int write_proof(const char *path) {
     struct round_window w;
     char *proof;
-    make_round(.3, &w);
+    make_round(.3, true, &w);
     FILE *file = fopen(path, "w");
     const pir_rigid_plan_info info = ask(&w.input, false, 4096, 1, NULL, 0, &proof);
     const bool is_good = file && info.answer == PIR_TURN_PLAN_NO_PATH && fputs(proof, file) >= 0;

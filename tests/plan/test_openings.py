@@ -558,6 +558,18 @@ def letter_changed(told, random_):
     chart["tree"] = replaced(chart["tree"], at, "+-"[chart["tree"][at] == "+"])
 
 
+def more_room(told, random_):
+    told["room"] = str(Fraction(told["room"]) * Fraction(1001, 1000))
+
+
+def less_smaller(told, random_):
+    told["shrink"] += random_.randrange(1, 9)
+
+
+def no_room(told, random_):
+    del told["room"]
+
+
 CHANGES = [changed_chord, changed_weight, leaves_exchanged, changed_halving, changed_corner, changed_reach,
            letter_changed]
 
@@ -627,7 +639,8 @@ def main(program, folder):
             assert not is_wrong(told, random_), "the oracle finds a proof wrong"
             hold_planes(told, random_, 2 * cases)
     round_, bent, block, closed, written = proofs
-    print(hold_lies(written, LIES, random_, 1, openings), "lies about what the library writes are refused")
+    count = hold_lies(written, LIES + [more_room, less_smaller, no_room], random_, 1, openings)
+    print(f"{count} lies about what the library writes are refused")
     count = hold_lies(round_, LIES, random_, cases, openings)
     count += hold_lies(bent, LIES + [parts_parted], random_, max(1, cases // 8), openings)
     count += hold_lies(block, LIES, random_, max(1, cases // 8), openings)

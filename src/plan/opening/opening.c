@@ -64,32 +64,56 @@ static void heights_of(const pir_opening_body *body, const double n[3], double r
     }
 }
 
-static int by_size(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
+/* Where the heights of a piece begin, or end; how many are more, or fewer, above. */
+struct height_end {
+    double at;
+    int step;
+};
+
+static int by_height(const void *a, const void *b) {
+    const double x = ((const struct height_end *)a)->at, y = ((const struct height_end *)b)->at;
     return x < y ? -1 : x > y;
 }
 
-/* Heights at which planes cut something: middles between those of least and greatest heights, or some of them. */
+/* Heights between two ends of some piece's: where planes cut the same pieces. */
+struct height_gap {
+    double low, high;
+    int pieces;
+};
+
+static bool is_better(const struct height_gap *a, const struct height_gap *b) {
+    return a->pieces != b->pieces ? a->pieces > b->pieces : a->high - a->low > b->high - b->low;
+}
+
+/* Middles of gaps: of those where planes cut most pieces, the widest. */
 static pir_status list_heights(const struct opening_search *t, const double n[3], double *ret_height,
                                uint32_t *ret_count) {
     const uint32_t count = t->question->obstacles->count;
-    double *ends = calloc(2 * (size_t)count + 1, sizeof *ends);
-    if (!ends)
+    struct height_end *end = calloc(2 * (size_t)count + 1, sizeof *end);
+    struct height_gap best[MOST_HEIGHTS + 1], gap = {.pieces = 0};
+    if (!end)
         return PIR_ERR_MEMORY;
-    for (uint32_t i = 0; i < count; i++)
-        heights_of(&t->parts.obstacle[i], n, ends + 2 * (size_t)i);
-    qsort(ends, 2 * (size_t)count, sizeof *ends, by_size);
-    uint32_t gaps = 0;
-    for (uint32_t i = 1; i < 2 * count; i++)
-        if (ends[i] > ends[gaps])
-            ends[++gaps] = ends[i];
-    // evenly, where there are too many
-    *ret_count = gaps < MOST_HEIGHTS ? gaps : MOST_HEIGHTS;
-    for (uint32_t i = 0; i < *ret_count; i++) {
-        const uint32_t gap = (uint32_t)((uint64_t)i * gaps / *ret_count);
-        ret_height[i] = ends[gap] + (ends[gap + 1] - ends[gap]) / 2;
+    for (uint32_t i = 0; i < count; i++) {
+        double h[2];
+        heights_of(&t->parts.obstacle[i], n, h);
+        end[2 * i] = (struct height_end){h[0], 1};
+        end[2 * i + 1] = (struct height_end){h[1], -1};
     }
-    free(ends);
+    qsort(end, 2 * (size_t)count, sizeof *end, by_height);
+    *ret_count = 0;
+    for (uint32_t i = 0; i + 1 < 2 * count; i++) {
+        gap = (struct height_gap){end[i].at, end[i + 1].at, gap.pieces + end[i].step};
+        if (gap.pieces <= 0 || gap.low == gap.high)
+            continue;
+        uint32_t at = *ret_count;
+        for (; at > 0 && is_better(&gap, &best[at - 1]); at--)
+            best[at] = best[at - 1];
+        best[at] = gap;
+        *ret_count = *ret_count < MOST_HEIGHTS ? *ret_count + 1 : MOST_HEIGHTS;
+    }
+    for (uint32_t i = 0; i < *ret_count; i++)
+        ret_height[i] = best[i].low + (best[i].high - best[i].low) / 2;
+    free(end);
     return PIR_OK;
 }
 

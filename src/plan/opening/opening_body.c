@@ -44,6 +44,19 @@ pir_status pir_opening_body_make(const pir_polytope *piece, pir_opening_body *re
     return PIR_ERR_MEMORY;
 }
 
+void pir_opening_body_shrink(pir_opening_body *body, const mpq_t point[3], uint32_t halvings) {
+    mpq_t way;
+    mpq_init(way);
+    for (uint32_t v = 0; v < body->vertices; v++)
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(way, point[k], body->exact[v][k]);
+            mpq_div_2exp(way, way, halvings);
+            mpq_add(body->exact[v][k], body->exact[v][k], way);
+            body->at[v][k] = mpq_get_d(body->exact[v][k]);
+        }
+    mpq_clear(way);
+}
+
 void pir_opening_body_finish(pir_opening_body *body) {
     for (uint32_t v = 0; v < body->vertices; v++)
         for (int k = 0; k < 3 && body->exact; k++)

@@ -37,6 +37,8 @@ typedef struct pir_opening_circle {
 
 /* Takes a polytope, of dimension 3. */
 pir_status pir_opening_body_make(const pir_polytope *piece, pir_opening_body *ret_body);
+/* Makes it smaller, by a part of 2^-halvings, about a point within it. */
+void pir_opening_body_shrink(pir_opening_body *body, const mpq_t point[3], uint32_t halvings);
 void pir_opening_body_finish(pir_opening_body *body);
 
 /* The square of the radius of the smallest circle round what a plane cuts; 0 where it does not cut the inside. */

@@ -32,7 +32,7 @@ static bool grow(pir_opening_cells *t, void **array, uint32_t *room, uint32_t ne
 
 /*
  * Whether a cell may meet the region of the start, or of the goal: no vertex is beyond all its planes. A height is a
- * sum of three products, of coordinates that are rounded, with u exact and at most 1: each product is within 2 units
+ * sum of three products, of coordinates that are rounded, with u exact and at most 1: each product is within 3 units
  * of 2^-53 of its size, and both sums within one of theirs, so the whole is within 2^-50 of the sum of sizes of
  * coordinates, twice which is at most the reach. So 2^-48 of the reach is above the error.
  */

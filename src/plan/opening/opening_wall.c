@@ -7,7 +7,10 @@
 
 #include <pirouette/mass.h>
 
-#define MOST_PARTS 1024
+/* Parts that holes may have in all; halvings of how much a section is widened. */
+#define MOST_PARTS    1024
+#define MOST_HALVINGS 128
+#define MIDDLE_BITS   64
 
 /* --- pieces --- */
 
@@ -26,6 +29,49 @@ static pir_status make_facets(const pir_polytope *piece, const pir_opening_body 
     }
     free(corner);
     return good ? PIR_OK : PIR_ERR_MEMORY;
+}
+
+static void free_facets(const pir_polytope *piece, pir_opening_half *facet) {
+    for (uint32_t f = 0; facet && f < pir_polytope_facet_count(piece); f++)
+        pir_opening_half_clear(&facet[f]);
+    free(facet);
+}
+
+/* Lessens `room` to a part of how far a point within a piece is from its facets: to a double that is hardly less. */
+static void take_room(const pir_polytope *piece, const pir_opening_half *facet, const mpq_t point[3], mpq_t room) {
+    mpq_t value, t, own;
+    mpq_inits(value, t, own, NULL);
+    for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
+        // the square of the part of the distance
+        pir_opening_half_value(&facet[f], point, value);
+        mpq_div_2exp(value, value, PIR_OPENING_SHRINK);
+        mpq_mul(value, value, value);
+        mpq_set_ui(own, 0, 1);
+        for (int k = 0; k < 3; k++) {
+            mpq_mul(t, facet[f].m[k], facet[f].m[k]);
+            mpq_add(own, own, t);
+        }
+        mpq_div(value, value, own);
+        mpq_set_d(own, sqrt(mpq_get_d(value)) * (1 - 0x1p-40));
+        mpq_mul(t, own, own);
+        if (mpq_cmp(t, value) > 0)
+            mpq_set_ui(own, 0, 1);
+        if (mpq_sgn(room) < 0 || mpq_cmp(own, room) < 0)
+            mpq_set(room, own);
+    }
+    mpq_clears(value, t, own, NULL);
+}
+
+/* Makes a piece of the robot smaller about the point within it. */
+static pir_status shrink(const pir_polytope *piece, const mpq_t point[3], pir_opening_body *body, mpq_t room) {
+    pir_opening_half *facet = NULL;
+    const pir_status status = make_facets(piece, body, &facet);
+    if (status == PIR_OK) {
+        take_room(piece, facet, point, room);
+        pir_opening_body_shrink(body, point, PIR_OPENING_SHRINK);
+    }
+    free_facets(piece, facet);
+    return status;
 }
 
 /* The mean of vertices, and how far it is at most, as a sum of sizes. */
@@ -65,7 +111,8 @@ pir_status pir_opening_parts_make(const pir_plan_asked *question, pir_opening_pa
                            .facet = calloc(obstacles + 1, sizeof *p.facet),
                            .point = calloc(robots + 1, sizeof *p.point)};
     mpq_t far;
-    mpq_inits(p.reach, far, NULL);
+    mpq_inits(p.reach, p.room, far, NULL);
+    mpq_set_si(p.room, -1, 1);
     pir_status status = p.robot && p.obstacle && p.at[0] && p.at[1] && p.facet && p.point ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t i = 0; i < robots && p.point; i++)
         mpq_inits(p.point[i][0], p.point[i][1], p.point[i][2], NULL);
@@ -77,6 +124,8 @@ pir_status pir_opening_parts_make(const pir_plan_asked *question, pir_opening_pa
             mean_of(&p.robot[i], p.point[i], far);
         if (mpq_cmp(far, p.reach) > 0)
             mpq_set(p.reach, far);
+        if (status == PIR_OK)
+            status = shrink(question->robot->at[i], (const mpq_t *)p.point[i], &p.robot[i], p.room);
     }
     for (uint32_t i = 0; i < obstacles && status == PIR_OK; i++) {
         status = pir_opening_body_make(question->obstacles->at[i], &p.obstacle[i]);
@@ -99,11 +148,8 @@ void pir_opening_parts_finish(pir_opening_parts *parts) {
             mpq_clears(parts->point[i][0], parts->point[i][1], parts->point[i][2], NULL);
     }
     for (uint32_t i = 0; i < parts->question.obstacles->count; i++) {
-        for (uint32_t f = 0;
-             parts->facet && parts->facet[i] && f < pir_polytope_facet_count(parts->question.obstacles->at[i]); f++)
-            pir_opening_half_clear(&parts->facet[i][f]);
         if (parts->facet)
-            free(parts->facet[i]);
+            free_facets(parts->question.obstacles->at[i], parts->facet[i]);
         if (parts->obstacle)
             pir_opening_body_finish(&parts->obstacle[i]);
     }
@@ -113,7 +159,7 @@ void pir_opening_parts_finish(pir_opening_parts *parts) {
     free(parts->obstacle);
     free(parts->facet);
     free(parts->point);
-    mpq_clear(parts->reach);
+    mpq_clears(parts->reach, parts->room, NULL);
     *parts = (pir_opening_parts){0};
 }
 
@@ -196,8 +242,8 @@ static bool make_square(const pir_opening_half *plane, const mpq_t size, pir_ope
     return true;
 }
 
-/* The places in the plane where the points of pieces can be; wider by so many widths of the bounds. */
-static bool make_places(const pir_opening_parts *parts, const pir_opening_half *plane, int wider,
+/* The places in the plane where the points of pieces can be. */
+static bool make_places(const pir_opening_parts *parts, const pir_opening_half *plane,
                         pir_opening_polygon *ret_places) {
     pir_opening_half half;
     mpq_t size;
@@ -207,19 +253,33 @@ static bool make_places(const pir_opening_parts *parts, const pir_opening_half *
     mpq_init(size);
     mpq_set_d(size, most);
     mpq_add(size, size, parts->reach);
-    mpq_mul_2exp(size, size, 6); // n is about 1 long, its products are no less than half, and widths twice as much
+    mpq_mul_2exp(size, size, 4); // n is about 1 long, and its products no less than half
     bool good = make_square(plane, size, ret_places);
     pir_opening_half_init(&half);
     for (int i = 0; i < 6 && good && ret_places->count > 0; i++) {
         const int k = i / 2, sign = i % 2 ? -1 : 1;
         for (int j = 0; j < 3; j++)
             mpq_set_si(half.m[j], j == k ? sign : 0, 1);
-        const double low = parts->question.low[k], high = parts->question.high[k], width = wider * (high - low);
-        mpq_set_d(half.c, sign > 0 ? high + width : width - low);
+        mpq_set_d(half.c, sign > 0 ? parts->question.high[k] : -parts->question.low[k]);
         mpq_add(half.c, half.c, parts->reach);
         good = cut(ret_places, &half);
     }
     pir_opening_half_clear(&half);
+    mpq_clear(size);
+    return good;
+}
+
+/* A square in the plane that has all obstacles. */
+static bool make_around(const pir_opening_parts *parts, const pir_opening_half *plane,
+                        pir_opening_polygon *ret_around) {
+    mpq_t size;
+    double most = fabs(mpq_get_d(plane->c));
+    for (uint32_t i = 0; i < parts->question.obstacles->count; i++)
+        most = fmax(most, parts->obstacle[i].reach);
+    mpq_init(size);
+    mpq_set_d(size, most);
+    mpq_mul_2exp(size, size, 4);
+    const bool good = make_square(plane, size, ret_around);
     mpq_clear(size);
     return good;
 }
@@ -247,7 +307,140 @@ static bool is_cut(const pir_opening_body *body, const pir_opening_half *plane) 
     return has[0] && has[2];
 }
 
-/* The sections of obstacles, as far as they are about the places. */
+/* Twice the area of a triangle about n, times its length: its sign is the turn's. */
+static int turn_of(const mpq_t n[3], const mpq_t a[3], const mpq_t b[3], const mpq_t c[3], mpq_t scratch) {
+    pir_opening_half half;
+    pir_opening_half_init(&half);
+    pir_opening_half_of_side(n, a, b, &half);
+    pir_opening_half_value(&half, c, scratch);
+    pir_opening_half_clear(&half);
+    return -mpq_sgn(scratch);
+}
+
+static bool is_same(const mpq_t a[3], const mpq_t b[3]) {
+    return mpq_equal(a[0], b[0]) && mpq_equal(a[1], b[1]) && mpq_equal(a[2], b[2]);
+}
+
+/* Whether b is between a and c, which are on a line. */
+static bool is_between(const mpq_t a[3], const mpq_t b[3], const mpq_t c[3]) {
+    for (int k = 0; k < 3; k++)
+        if (mpq_cmp(a[k], b[k]) * mpq_cmp(b[k], c[k]) < 0)
+            return false;
+    return true;
+}
+
+/* The hull of points, one after another round it, without those on its sides. */
+static bool make_hull(const mpq_t n[3], const mpq_t *const *point, uint32_t count, pir_opening_polygon *ret_hull) {
+    uint32_t *of = calloc(count + 1, sizeof *of), corners = 0, at = 0;
+    mpq_t scratch;
+    if (!of)
+        return false;
+    mpq_init(scratch);
+    for (uint32_t i = 1; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            const int order = mpq_cmp(point[i][k], point[at][k]);
+            at = order < 0 ? i : at;
+            if (order != 0)
+                break;
+        }
+    do {
+        of[corners++] = at;
+        uint32_t next = at;
+        for (uint32_t i = 0; i < count; i++) {
+            if (is_same(point[i], point[at]))
+                continue;
+            const int side = next == at ? -1 : turn_of(n, point[at], point[next], point[i], scratch);
+            if (side < 0 || (side == 0 && is_between(point[at], point[next], point[i])))
+                next = i;
+        }
+        at = next;
+    } while (corners < count && !is_same(point[at], point[of[0]]));
+    const bool good = pir_opening_polygon_new(corners, ret_hull);
+    for (uint32_t i = 0; i < corners && good; i++)
+        for (int k = 0; k < 3; k++)
+            mpq_set(ret_hull->at[i][k], point[of[i]][k]);
+    if (good)
+        pir_opening_polygon_bound(ret_hull);
+    mpq_clear(scratch);
+    free(of);
+    return good;
+}
+
+/* Leaves out corners that are on sides. */
+static bool replace_by_hull(const mpq_t n[3], pir_opening_polygon *polygon) {
+    const mpq_t **point = calloc(polygon->count + 1, sizeof *point);
+    pir_opening_polygon made = {0};
+    for (uint32_t i = 0; i < polygon->count && point; i++)
+        point[i] = (const mpq_t *)polygon->at[i];
+    const bool good = point && make_hull(n, (const mpq_t *const *)point, polygon->count, &made);
+    free(point);
+    if (!good)
+        return false;
+    pir_opening_polygon_free(polygon);
+    *polygon = made;
+    return true;
+}
+
+/*
+ * The mean of a polygon's corners, of which the two coordinates across the greatest of n are rounded down to multiples
+ * of 2^-64, so that numbers stay short, and the third is that of the plane.
+ */
+static void middle_of(const pir_opening_half *plane, const pir_opening_polygon *polygon, mpq_t ret_middle[3]) {
+    mpq_t t, u;
+    int axis = 0;
+    mpq_inits(t, u, NULL);
+    for (int k = 1; k < 3; k++) {
+        mpq_abs(t, plane->m[k]);
+        mpq_abs(u, plane->m[axis]);
+        axis = mpq_cmp(t, u) > 0 ? k : axis;
+    }
+    mpq_set(ret_middle[axis], plane->c);
+    for (int k = (axis + 1) % 3; k != axis; k = (k + 1) % 3) {
+        mpq_set_ui(ret_middle[k], 0, 1);
+        for (uint32_t i = 0; i < polygon->count; i++)
+            mpq_add(ret_middle[k], ret_middle[k], polygon->at[i][k]);
+        mpq_set_ui(t, polygon->count, 1);
+        mpq_div(t, ret_middle[k], t);
+        mpq_mul_2exp(t, t, MIDDLE_BITS);
+        mpz_fdiv_q(mpq_numref(ret_middle[k]), mpq_numref(t), mpq_denref(t));
+        mpz_set_ui(mpq_denref(ret_middle[k]), 1);
+        mpq_div_2exp(ret_middle[k], ret_middle[k], MIDDLE_BITS);
+        mpq_mul(t, ret_middle[k], plane->m[k]);
+        mpq_sub(ret_middle[axis], ret_middle[axis], t);
+    }
+    mpq_div(ret_middle[axis], ret_middle[axis], plane->m[axis]);
+    mpq_clears(t, u, NULL);
+}
+
+/* Widens a polygon about its middle, by a power of two of its size such that no corner is moved by more than room. */
+static void widen(const pir_opening_half *plane, const mpq_t room, pir_opening_polygon *polygon) {
+    mpq_t mean[3], most, t, sum;
+    mpq_inits(mean[0], mean[1], mean[2], most, t, sum, NULL);
+    middle_of(plane, polygon, mean);
+    for (uint32_t i = 0; i < polygon->count; i++) {
+        mpq_set_ui(sum, 0, 1);
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(t, polygon->at[i][k], mean[k]);
+            mpq_abs(t, t);
+            mpq_add(sum, sum, t);
+        }
+        if (mpq_cmp(sum, most) > 0)
+            mpq_set(most, sum);
+    }
+    mp_bitcnt_t halvings = 0;
+    for (; mpq_cmp(most, room) > 0 && halvings < MOST_HALVINGS; halvings++)
+        mpq_div_2exp(most, most, 1);
+    for (uint32_t i = 0; i < polygon->count && mpq_cmp(most, room) <= 0; i++)
+        for (int k = 0; k < 3; k++) {
+            mpq_sub(t, polygon->at[i][k], mean[k]);
+            mpq_div_2exp(t, t, halvings);
+            mpq_add(polygon->at[i][k], polygon->at[i][k], t);
+        }
+    pir_opening_polygon_bound(polygon);
+    mpq_clears(mean[0], mean[1], mean[2], most, t, sum, NULL);
+}
+
+/* The sections of obstacles, widened. */
 static bool make_sections(const pir_opening_parts *parts, const pir_opening_half *plane,
                           const pir_opening_polygon *around, pir_opening_polygons *ret_sections) {
     const pir_plan_pieces *pieces = parts->question.obstacles;
@@ -266,7 +459,15 @@ static bool make_sections(const pir_opening_parts *parts, const pir_opening_half
             if (section.count == 0)
                 break;
         }
-        if (section.count > 0 && !pir_opening_polygons_add(ret_sections, &section))
+        if (section.count == 0)
+            continue;
+        bool good = replace_by_hull((const mpq_t *)plane->m, &section);
+        if (good)
+            widen(plane, parts->room, &section);
+        else
+            pir_opening_polygon_free(&section);
+        good = good && pir_opening_polygons_add(ret_sections, &section);
+        if (!good)
             return false;
     }
     return true;
@@ -334,65 +535,6 @@ static bool do_meet(const mpq_t n[3], const pir_opening_polygon *a, const pir_op
     }
     pir_opening_polygon_free(&common);
     pir_opening_half_clear(&half);
-    return good;
-}
-
-/* Twice the area of a triangle about n, times its length: its sign is the turn's. */
-static int turn_of(const mpq_t n[3], const mpq_t a[3], const mpq_t b[3], const mpq_t c[3], mpq_t scratch) {
-    pir_opening_half half;
-    pir_opening_half_init(&half);
-    pir_opening_half_of_side(n, a, b, &half);
-    pir_opening_half_value(&half, c, scratch);
-    pir_opening_half_clear(&half);
-    return -mpq_sgn(scratch);
-}
-
-static bool is_same(const mpq_t a[3], const mpq_t b[3]) {
-    return mpq_equal(a[0], b[0]) && mpq_equal(a[1], b[1]) && mpq_equal(a[2], b[2]);
-}
-
-/* Whether b is between a and c, which are on a line. */
-static bool is_between(const mpq_t a[3], const mpq_t b[3], const mpq_t c[3]) {
-    for (int k = 0; k < 3; k++)
-        if (mpq_cmp(a[k], b[k]) * mpq_cmp(b[k], c[k]) < 0)
-            return false;
-    return true;
-}
-
-/* The hull of points, one after another round it, without those on its sides. */
-static bool make_hull(const mpq_t n[3], const mpq_t *const *point, uint32_t count, pir_opening_polygon *ret_hull) {
-    uint32_t *of = calloc(count + 1, sizeof *of), corners = 0, at = 0;
-    mpq_t scratch;
-    if (!of)
-        return false;
-    mpq_init(scratch);
-    for (uint32_t i = 1; i < count; i++)
-        for (int k = 0; k < 3; k++) {
-            const int order = mpq_cmp(point[i][k], point[at][k]);
-            at = order < 0 ? i : at;
-            if (order != 0)
-                break;
-        }
-    do {
-        of[corners++] = at;
-        uint32_t next = at;
-        for (uint32_t i = 0; i < count; i++) {
-            if (is_same(point[i], point[at]))
-                continue;
-            const int side = next == at ? -1 : turn_of(n, point[at], point[next], point[i], scratch);
-            if (side < 0 || (side == 0 && is_between(point[at], point[next], point[i])))
-                next = i;
-        }
-        at = next;
-    } while (corners < count && !is_same(point[at], point[of[0]]));
-    const bool good = pir_opening_polygon_new(corners, ret_hull);
-    for (uint32_t i = 0; i < corners && good; i++)
-        for (int k = 0; k < 3; k++)
-            mpq_set(ret_hull->at[i][k], point[of[i]][k]);
-    if (good)
-        pir_opening_polygon_bound(ret_hull);
-    mpq_clear(scratch);
-    free(of);
     return good;
 }
 
@@ -598,7 +740,7 @@ pir_status pir_opening_wall_make(const pir_opening_parts *parts, const double n[
     mpq_set_d(plane.c, d);
     bool good = list_pieces(parts, &plane, &wall);
     if (good && wall.pieces > 0)
-        good = make_places(parts, &plane, 0, &places) && make_places(parts, &plane, 1, &around) &&
+        good = make_places(parts, &plane, &places) && make_around(parts, &plane, &around) &&
                make_sections(parts, &plane, &around, &sections) &&
                make_rest((const mpq_t *)wall.plane, &sections, &places, &rest, &is_none) &&
                (is_none || make_holes(&sections, &rest, &wall, &is_none));

@@ -8,6 +8,11 @@
  * in holes, but for what has no area. A hole is a union of convex polygons, of whose sides every point is in W, or on
  * a side of another one that runs the other way. So the hole's boundary is in W.
  *
+ * Obstacles that touch but for roundings leave slits, which are no holes: a corner of K may be in one, however thin.
+ * So K is taken a part of 2^-PIR_OPENING_SHRINK smaller about p, which is farther from what K misses, by that part of
+ * how far p is inside of K. Sections are widened about their corners' mean by no more than that, `room`, which closes
+ * slits.
+ *
  * On a free way, from when K last leaves the side of the start, until it is on the other for the first time, the plane
  * cuts the inside of K, in a connected set that misses W. As p passes the plane it is in a hole; what is cut cannot
  * leave this one, neither at once nor as it changes. So it always is in a disc that has all holes' corners about one
@@ -19,6 +24,8 @@
 #include "plan/opening/opening_body.h"
 #include "plan/opening/opening_polygon.h"
 #include "plan/plan_write.h"
+
+#define PIR_OPENING_SHRINK 30
 
 typedef struct pir_opening_hole {
     pir_opening_polygons parts;
@@ -40,6 +47,7 @@ typedef struct pir_opening_parts {
     pir_opening_half **facet; /* of each obstacle */
     mpq_t (*point)[3];        /* of each piece of the robot, the one within it: the mean of its vertices */
     mpq_t reach;              /* above how far these are from the origin */
+    mpq_t room;               /* a double: how much nearer sections may be than obstacles are */
 } pir_opening_parts;
 
 /* PIR_ERR_LIMIT where numbers become too long. */

@@ -76,7 +76,9 @@ pir_status pir_opening_write(const pir_opening_parts *parts, const pir_opening_w
     put_wall(&w, wall);
     fprintf(file, ",\n \"piece\": %u,\n \"point\": ", piece);
     pir_plan_put_rationals(&w, (const mpq_t *)parts->point[piece], 3);
-    fputs(",\n \"reach\": ", file);
+    fprintf(file, ",\n \"shrink\": %d,\n \"room\": \"", PIR_OPENING_SHRINK);
+    mpq_out_str(file, 10, parts->room);
+    fputs("\",\n \"reach\": ", file);
     mpq_set_d(w.x, parts->robot[piece].reach);
     fputc('"', file);
     mpq_out_str(file, 10, w.x);
