@@ -92,16 +92,4 @@ static inline void pir_rotation_set_factors(pir_rotation *rotation, const pir_qu
     rotation->has_exact = false;
 }
 
-/* Whether a component is 0, or so large that the integers of a product of two have their room (PIR_QUAT_LIMBS). */
-static inline bool pir_component_is_fit(double c) {
-    return (c == 0) | ((fabs(c) >= 0x1p-900) & (fabs(c) < 1));
-}
-
-/* Whether a quaternion needs no scaling for a product: its greatest component is in [0.5, 1), none is too small. */
-static inline bool pir_quat_is_fit(pir_quat q) {
-    const bool large = (fabs(q.x) >= 0.5) | (fabs(q.y) >= 0.5) | (fabs(q.z) >= 0.5) | (fabs(q.w) >= 0.5);
-    return large && pir_component_is_fit(q.x) && pir_component_is_fit(q.y) && pir_component_is_fit(q.z) &&
-           pir_component_is_fit(q.w);
-}
-
 #endif

@@ -17,7 +17,7 @@
 #include "exact/quat_product.h"
 #include "exact/wide.h"
 
-/* The greatest binary exponent among the components, as frexp gives it. */
+/* The greatest binary exponent among the components, as frexp gives it; INT32_MIN where all are 0. */
 static int top_exponent(const double c[4]) {
     double most = fmax(fmax(fabs(c[0]), fabs(c[1])), fmax(fabs(c[2]), fabs(c[3])));
     int top = INT32_MIN;
@@ -44,9 +44,9 @@ pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given) {
     for (int k = 0; k < 4; k++)
         if (!isfinite(c[k]))
             return PIR_ERR_NOT_FINITE;
-    if (c[0] == 0 && c[1] == 0 && c[2] == 0 && c[3] == 0)
-        return PIR_ERR_ZERO_QUATERNION;
     int top = top_exponent(c);
+    if (top == INT32_MIN)
+        return PIR_ERR_ZERO_QUATERNION;
     set_doubles(rotation, given, (pir_quat){ldexp(q.x, -top), ldexp(q.y, -top), ldexp(q.z, -top), ldexp(q.w, -top)});
     return PIR_OK;
 }
@@ -107,9 +107,9 @@ pir_status pir_rotation_set_relative(pir_rotation *rotation, pir_quat q, pir_qua
     return PIR_OK;
 }
 
-/* The exponent of the lowest set bit of any component. */
+/* The exponent of the lowest set bit of any component, or 1024, which is above all of a double. */
 static int low_exponent(const double c[4]) {
-    int low = INT32_MAX;
+    int low = 1024;
     for (int k = 0; k < 4; k++) {
         int e = pir_double_low_bit(c[k]);
         low = e < low ? e : low;

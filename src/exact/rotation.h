@@ -113,6 +113,18 @@ static inline bool pir_quat_is_near_one(pir_quat q) {
     return n >= PIR_NORM_NEAR_ONE && n <= 1 / PIR_NORM_NEAR_ONE;
 }
 
+/* Whether a component is 0, or so large that the integers of a product of two have their room (PIR_QUAT_LIMBS). */
+static inline bool pir_component_is_fit(double c) {
+    return (c == 0) | ((fabs(c) >= 0x1p-900) & (fabs(c) < 1));
+}
+
+/* Whether a quaternion needs no scaling for a product: its greatest component is in [0.5, 1), none is too small. */
+static inline bool pir_quat_is_fit(pir_quat q) {
+    const bool large = (fabs(q.x) >= 0.5) | (fabs(q.y) >= 0.5) | (fabs(q.z) >= 0.5) | (fabs(q.w) >= 0.5);
+    return large && pir_component_is_fit(q.x) && pir_component_is_fit(q.y) && pir_component_is_fit(q.z) &&
+           pir_component_is_fit(q.w);
+}
+
 /* Takes a quaternion: PIR_ERR_NOT_FINITE, PIR_ERR_ZERO_QUATERNION, or PIR_OK. On failure *rotation is as it was. */
 pir_status pir_rotation_set(pir_rotation *rotation, pir_quat given);
 

@@ -172,7 +172,7 @@ static void add_term(struct sized *x, double term, double size) {
 /* a as doubles; false when they do not hold it exactly. */
 static bool small_vector(const pir_int3 *a, double ret_small[3]) {
     for (int k = 0; k < 3; k++) {
-        if (a->c[k].size < -1 || a->c[k].size > 1 || (a->c[k].size != 0 && a->c[k].limb[0] >> 53 != 0))
+        if (a->c[k].size < -1 || a->c[k].size > 1 || (a->c[k].size != 0 && (uint64_t)a->c[k].limb[0] >> 53 != 0))
             return false;
         ret_small[k] = a->c[k].size == 0 ? 0 : (double)a->c[k].limb[0] * a->c[k].size;
     }

@@ -55,7 +55,7 @@ static pir_status read_element(struct pir_text *text, struct ply_header *header)
     pir_status status = next_in_line(text, "the element's name");
     if (status != PIR_OK)
         return status;
-    if (header->element_count == PLY_ELEMENTS_MAX)
+    if (header->element_count >= PLY_ELEMENTS_MAX)
         return pir_text_fail(text, PIR_ERR_LIMIT, "more than %d elements", PLY_ELEMENTS_MAX);
     // strips of triangles would be facets too, and a hull without them of a part only
     if (pir_text_is(text, "tristrips"))
@@ -127,7 +127,7 @@ static pir_status name_property(const struct pir_text *text, struct ply_header *
 static pir_status read_property(struct pir_text *text, struct ply_header *header) {
     if (header->element_count == 0)
         return pir_text_fail(text, PIR_ERR_FORMAT, "a property stands before any element");
-    if (header->property_count == PLY_PROPERTIES_MAX)
+    if (header->property_count >= PLY_PROPERTIES_MAX)
         return pir_text_fail(text, PIR_ERR_LIMIT, "more than %d properties", PLY_PROPERTIES_MAX);
     struct ply_property *property = &header->property[header->property_count];
     *property = (struct ply_property){0};
@@ -151,19 +151,19 @@ static pir_status read_property(struct pir_text *text, struct ply_header *header
 
 /* That the elements are such as a model needs. */
 static pir_status check_elements(const struct pir_text *text, struct ply_header *header) {
+    const struct ply_element *face = NULL;
     unsigned seen = 0;
-    header->vertex = header->face = header->element_count;
     for (unsigned e = 0; e < header->element_count; e++) {
         const struct ply_element *element = &header->element[e];
         if (element->first == element->end && element->count > 0)
             return pir_fail(text->report, PIR_ERR_FORMAT, "%s:%zu: element %s has no properties", text->name,
                             element->line, element->name);
-        header->vertex = strcmp(element->name, "vertex") == 0 ? e : header->vertex;
-        header->face = strcmp(element->name, "face") == 0 ? e : header->face;
+        header->vertex = strcmp(element->name, "vertex") == 0 ? element : header->vertex;
+        face = strcmp(element->name, "face") == 0 ? element : face;
         for (unsigned i = element->first; i < element->end; i++)
             seen |= 1u << header->property[i].role;
     }
-    if (header->vertex == header->element_count || header->element[header->vertex].count == 0)
+    if (!header->vertex || header->vertex->count == 0)
         return pir_text_fail(text, PIR_ERR_EMPTY, "the file has no vertices");
     const unsigned xyz = 1u << PLY_X | 1u << PLY_Y | 1u << PLY_Z;
     if ((seen & xyz) != xyz)
@@ -171,7 +171,7 @@ static pir_status check_elements(const struct pir_text *text, struct ply_header 
                              !(seen & 1u << PLY_X)   ? "x"
                              : !(seen & 1u << PLY_Y) ? "y"
                                                      : "z");
-    if (header->face < header->element_count && header->element[header->face].count > 0 && !(seen & 1u << PLY_CORNERS))
+    if (face && face->count > 0 && !(seen & 1u << PLY_CORNERS))
         return pir_text_fail(text, PIR_ERR_FORMAT, "element face has no list vertex_indices");
     return PIR_OK;
 }

@@ -35,7 +35,7 @@ struct ply_header {
     unsigned element_count, property_count;
     struct ply_element element[PLY_ELEMENTS_MAX];
     struct ply_property property[PLY_PROPERTIES_MAX];
-    unsigned vertex, face; /* elements; `face` is element_count when there are none */
+    const struct ply_element *vertex; /* that of the points */
 };
 
 /* Bytes of a number of this type in a binary file. */

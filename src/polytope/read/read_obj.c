@@ -28,15 +28,15 @@ static bool is_refused(const struct pir_text *text) {
 
 /* Whether the last token is of printable ASCII characters, as the first word of a statement is. */
 static bool is_printable(const struct pir_text *text) {
-    for (size_t i = 0; i < text->length; i++)
-        if (text->token[i] <= ' ' || text->token[i] > '~')
+    for (const char *s = text->token; s < text->end; s++)
+        if (*s <= ' ' || *s > '~')
             return false;
     return true;
 }
 
 /* v x y z, then perhaps a weight of 1 or a colour of three or four numbers. */
 static pir_status read_point(struct pir_text *text, struct pir_model *model) {
-    double value[8];
+    double value[8] = {0};
     size_t count = 0, line = text->token_line;
     while (pir_text_next(text, true)) {
         if (count == 7)
@@ -54,31 +54,31 @@ static pir_status read_point(struct pir_text *text, struct pir_model *model) {
     return pir_model_add_point(model, (pir_vec3){value[0], value[1], value[2]});
 }
 
-/* The characters of `part` up to a slash. */
-static size_t part_length(const char *part, const char *end) {
-    const char *slash = memchr(part, '/', (size_t)(end - part));
-    return (size_t)((slash ? slash : end) - part);
+/* The first slash from `part` on, or `end`. */
+static const char *part_end(const char *part, const char *end) {
+    while (part < end && *part != '/')
+        part++;
+    return part;
 }
 
-/* A number of `length` characters that counts from 1, or back from the last when it is negative; 0 is none. */
-static bool parse_index(const char *digits, size_t length, uint64_t *ret_index, bool *ret_back) {
-    *ret_back = length > 0 && *digits == '-';
-    return pir_digits_count(digits + *ret_back, length - *ret_back, ret_index) && *ret_index > 0;
+/* A number in the characters up to `end` that counts from 1, or back from the last when it is negative; 0 is none. */
+static bool parse_index(const char *digits, const char *end, uint64_t *ret_index, bool *ret_back) {
+    *ret_back = digits < end && *digits == '-';
+    return pir_digits_count(*ret_back ? digits + 1 : digits, end, ret_index) && *ret_index > 0;
 }
 
 /* The last token as a corner: point, point/texture, point//normal or point/texture/normal. */
 static bool parse_corner(const struct pir_text *text, uint64_t *ret_index, bool *ret_back) {
-    const char *part = text->token, *end = text->token + text->length;
-    size_t length = part_length(part, end);
-    if (!parse_index(part, length, ret_index, ret_back))
+    const char *slash = part_end(text->token, text->end);
+    if (!parse_index(text->token, slash, ret_index, ret_back))
         return false;
-    for (int parts = 1; part + length < end; parts++) {
+    for (int parts = 1; slash < text->end; parts++) {
         uint64_t index;
         bool back;
-        part += length + 1;
-        length = part_length(part, end);
-        bool left_out = length == 0 && parts == 1 && part < end;
-        if (parts == 3 || (!left_out && !parse_index(part, length, &index, &back)))
+        const char *part = slash + 1;
+        slash = part_end(part, text->end);
+        bool left_out = slash == part && parts == 1 && part < text->end;
+        if (parts == 3 || (!left_out && !parse_index(part, slash, &index, &back)))
             return false;
     }
     return true;
@@ -89,7 +89,7 @@ static bool parse_corner(const struct pir_text *text, uint64_t *ret_index, bool 
  * is looked at in the end. The index is below the size of a file.
  */
 static pir_status read_corner(struct pir_text *text, struct pir_model *model) {
-    uint64_t index;
+    uint64_t index = 0;
     bool back;
     char shown[PIR_SHOWN];
     if (!parse_corner(text, &index, &back))

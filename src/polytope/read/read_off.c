@@ -51,7 +51,8 @@ static pir_status read_header(struct reader *reader) {
     char shown[PIR_SHOWN];
     if (pir_text_is(text, "OFF"))
         return PIR_OK;
-    if (text->length > 3 && text->length < 8 && memcmp(text->token + text->length - 3, "OFF", 3) == 0)
+    const size_t length = pir_text_length(text);
+    if (length > 3 && length < 8 && memcmp(text->end - 3, "OFF", 3) == 0)
         return pir_text_fail(text, PIR_ERR_FORMAT,
                              "'%s' files are not read; only plain 'OFF', three coordinates a vertex, is",
                              pir_text_show(text, shown));
@@ -81,7 +82,7 @@ static bool edge_count_left_out(const struct pir_text *text) {
 
 /* V, F and E; E, which nobody needs, may be left out where V and F stand on a line of their own. */
 static pir_status read_counts(struct reader *reader) {
-    uint64_t vertices, facets, edges;
+    uint64_t vertices = 0, facets = 0, edges = 0;
     pir_status status = read_count(&reader->text, "vertices", &vertices);
     if (status)
         return status;
@@ -143,7 +144,7 @@ static pir_status put_exact(struct reader *reader, uint32_t vertex, const struct
 /* One vertex; `scratch` holds three rationals between the tokens and the model. */
 static pir_status read_vertex(struct reader *reader, uint32_t vertex, mpq_t scratch[3]) {
     struct pir_text *text = &reader->text;
-    struct number numbers[3];
+    struct number numbers[3] = {{0}};
     pir_status status;
     for (int axis = 0; axis < 3; axis++) {
         if (!pir_text_next(text, false))
@@ -175,7 +176,7 @@ static pir_status read_vertices(struct reader *reader) {
 
 /* The next token as a corner of facet `facet`. Some files count vertices from 1: all do or none does. */
 static pir_status read_corner(struct reader *reader, uint32_t facet, uint32_t *ret_corner) {
-    uint64_t corner;
+    uint64_t corner = 0;
     char shown[PIR_SHOWN];
     if (!pir_text_next(&reader->text, false))
         return pir_text_fail(&reader->text, PIR_ERR_FORMAT, "the file ends in facet %u of %u", (unsigned)facet,
@@ -206,7 +207,7 @@ static pir_status fail_twice(const struct reader *reader, uint32_t corner) {
 /* One facet to the model; what follows on the line of its last corner is a colour and passed over. */
 static pir_status read_facet(struct reader *reader, uint32_t facet) {
     char shown[PIR_SHOWN];
-    uint64_t size;
+    uint64_t size = 0;
     if (!pir_text_next(&reader->text, false))
         return pir_text_fail(&reader->text, PIR_ERR_FORMAT, "the file ends before facet %u of %u", (unsigned)facet,
                              (unsigned)reader->facet_count);

@@ -63,22 +63,18 @@ static pir_status next_value(struct ply *ply, enum ply_type type, const char **r
     return PIR_OK;
 }
 
+static int64_t decode_integer(const char *bytes, enum ply_type type, bool big) {
+    if (type == PLY_INT8 || type == PLY_INT16 || type == PLY_INT32)
+        return pir_bytes_signed(bytes, pir_ply_type_size(type), big);
+    return (int64_t)pir_bytes_unsigned(bytes, pir_ply_type_size(type), big);
+}
+
 static double decode(const char *bytes, enum ply_type type, bool big) {
-    switch (type) {
-    case PLY_FLOAT:
+    if (type == PLY_FLOAT)
         return pir_bytes_float(bytes, big);
-    case PLY_DOUBLE:
+    if (type == PLY_DOUBLE)
         return pir_bytes_double(bytes, big);
-    case PLY_INT8:
-    case PLY_INT16:
-    case PLY_INT32:
-        return (double)pir_bytes_signed(bytes, pir_ply_type_size(type), big);
-    case PLY_UINT8:
-    case PLY_UINT16:
-    case PLY_UINT32:
-        break;
-    }
-    return (double)pir_bytes_unsigned(bytes, pir_ply_type_size(type), big);
+    return (double)decode_integer(bytes, type, big);
 }
 
 static pir_status read_coordinate(struct ply *ply, enum ply_type type, double *ret_value) {
@@ -116,9 +112,9 @@ static pir_status read_index(struct ply *ply, enum ply_type type, uint64_t *ret_
             return fail_here(ply, PIR_ERR_FORMAT, "'%s' is not a size or an index", pir_text_show(&ply->text, shown));
         return PIR_OK;
     }
-    double value = decode(bytes, type, ply->header.format == PLY_BIG);
+    int64_t value = decode_integer(bytes, type, ply->header.format == PLY_BIG);
     if (value < 0)
-        return fail_here(ply, PIR_ERR_FORMAT, "%.0f is not a size or an index", value);
+        return fail_here(ply, PIR_ERR_FORMAT, "%lld is not a size or an index", (long long)value);
     *ret_index = (uint64_t)value;
     return PIR_OK;
 }
@@ -147,7 +143,7 @@ static pir_status pass_list(struct ply *ply, const struct ply_property *property
 
 /* The list of a face's corners as a facet of the model. */
 static pir_status read_corners(struct ply *ply, const struct ply_property *property) {
-    uint64_t size = 0, vertices = ply->header.element[ply->header.vertex].count;
+    uint64_t size = 0, vertices = ply->header.vertex->count;
     pir_status status = read_list_size(ply, property, &size);
     if (status == PIR_OK && size < 3)
         return fail_here(ply, PIR_ERR_FORMAT, "it has %u corners; three or more are needed", (unsigned)size);
@@ -201,7 +197,7 @@ static pir_status check_room(const struct ply *ply) {
         enum ply_type type = property->is_list ? property->count_type : property->type;
         each += ply->header.format == PLY_ASCII ? 2 : pir_ply_type_size(type);
     }
-    if (element->count > 0 && element->count > room / each)
+    if (each > 0 && element->count > room / each)
         return pir_fail(ply->text.report, PIR_ERR_FORMAT,
                         "%s:%zu: %llu elements %s are promised; the %zu bytes that follow cannot hold them",
                         ply->text.name, element->line, (unsigned long long)element->count, element->name,
@@ -210,7 +206,7 @@ static pir_status check_room(const struct ply *ply) {
 }
 
 static pir_status read_elements(struct ply *ply) {
-    bool is_vertex = ply->element == &ply->header.element[ply->header.vertex];
+    bool is_vertex = ply->element == ply->header.vertex;
     pir_status status = check_room(ply);
     if (status == PIR_OK && is_vertex)
         status = pir_model_reserve_points(ply->model, (uint32_t)ply->element->count);

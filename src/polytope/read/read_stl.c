@@ -78,7 +78,7 @@ static pir_status pass_normal(struct pir_text *text) {
 }
 
 static pir_status read_corner(struct pir_text *text, struct pir_model *model) {
-    double value[3];
+    double value[3] = {0};
     pir_status status = expect_word(text, "vertex");
     for (int k = 0; k < 3 && status == PIR_OK; k++) {
         if (!pir_text_next(text, false))

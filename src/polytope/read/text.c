@@ -12,7 +12,14 @@
 #include "base/report.h"
 
 void pir_text_init(struct pir_text *text, const char *bytes, size_t size, const char *name, pir_report *report) {
-    *text = (struct pir_text){.text = bytes, .size = size, .line = 1, .name = name, .report = report, .token_line = 1};
+    *text = (struct pir_text){.text = bytes,
+                              .size = size,
+                              .line = 1,
+                              .name = name,
+                              .report = report,
+                              .token = bytes,
+                              .end = bytes,
+                              .token_line = 1};
 }
 
 pir_status pir_text_fail(const struct pir_text *text, pir_status status, const char *format, ...) {
@@ -54,10 +61,10 @@ static bool at_fold(const struct pir_text *text) {
 
 /* Passes the backslash and the end of the line after it. */
 static void pass_fold(struct pir_text *text) {
-    bool two = text->text[text->at + 1] == '\r' && text->at + 2 < text->size && text->text[text->at + 2] == '\n';
     text->at++;
-    pass_byte(text);
-    if (two)
+    if (text->at < text->size && text->text[text->at] == '\r')
+        pass_byte(text);
+    if (text->at < text->size && text->text[text->at] == '\n')
         pass_byte(text);
 }
 
@@ -78,20 +85,22 @@ static void pass_blank(struct pir_text *text, bool same_line) {
 
 bool pir_text_next(struct pir_text *text, bool same_line) {
     pass_blank(text, same_line);
-    if (text->at == text->size || is_line_end(text->text[text->at]))
+    if (text->at >= text->size || is_line_end(text->text[text->at]))
         return false;
     text->token = text->text + text->at;
     text->token_line = text->line;
-    size_t start = text->at;
     while (text->at < text->size && !is_space(text->text[text->at]) &&
            !(text->comments && text->text[text->at] == '#') && !at_fold(text))
         text->at++;
-    text->length = text->at - start;
+    text->end = text->text + text->at;
     return true;
 }
 
 bool pir_text_is(const struct pir_text *text, const char *word) {
-    return text->length == strlen(word) && memcmp(text->token, word, text->length) == 0;
+    for (const char *s = text->token; s < text->end; s++, word++)
+        if (*word == '\0' || *s != *word)
+            return false;
+    return *word == '\0';
 }
 
 static char lower_case(char c) {
@@ -99,29 +108,27 @@ static char lower_case(char c) {
 }
 
 bool pir_text_is_word(const struct pir_text *text, const char *word) {
-    if (text->length != strlen(word))
-        return false;
-    for (size_t i = 0; i < text->length; i++)
-        if (lower_case(text->token[i]) != word[i])
+    for (const char *s = text->token; s < text->end; s++, word++)
+        if (*word == '\0' || lower_case(*s) != *word)
             return false;
-    return true;
+    return *word == '\0';
 }
 
 const char *pir_text_show(const struct pir_text *text, char ret_shown[PIR_SHOWN]) {
-    const size_t most = PIR_SHOWN - 4;
-    size_t length = text->length < most ? text->length : most;
-    for (size_t i = 0; i < length; i++)
-        ret_shown[i] = text->token[i] > ' ' && text->token[i] <= '~' ? text->token[i] : '?';
-    strcpy(ret_shown + length, text->length > most ? "..." : "");
+    const char *s = text->token;
+    size_t length = 0;
+    for (; s < text->end && length < PIR_SHOWN - 4; s++)
+        ret_shown[length++] = *s > ' ' && *s <= '~' ? *s : '?';
+    strcpy(ret_shown + length, s < text->end ? "..." : "");
     return ret_shown;
 }
 
 static bool copy_token(struct pir_text *text) {
-    if (text->length > PIR_TOKEN_MAX)
-        return false;
-    memcpy(text->buffer, text->token, text->length);
-    text->buffer[text->length] = '\0';
-    return true;
+    size_t length = 0;
+    for (const char *s = text->token; s < text->end && length < PIR_TOKEN_MAX; s++)
+        text->buffer[length++] = *s;
+    text->buffer[length] = '\0';
+    return length == pir_text_length(text);
 }
 
 /* --- numbers --- */
@@ -177,7 +184,7 @@ static enum form form_of(const char *string) {
 
 /* The form of the last token, copied to the buffer; a zero byte in it makes it none. */
 static enum form form_of_token(struct pir_text *text) {
-    return copy_token(text) && strlen(text->buffer) == text->length ? form_of(text->buffer) : FORM_NONE;
+    return copy_token(text) && strlen(text->buffer) == pir_text_length(text) ? form_of(text->buffer) : FORM_NONE;
 }
 
 bool pir_text_is_number(struct pir_text *text) {
@@ -238,9 +245,9 @@ static pir_status parse_decimal(const struct pir_text *text, double *ret_value) 
 static pir_status parse_number(struct pir_text *text, uint32_t point, double *ret_value, bool *ret_exact,
                                mpq_ptr exact) {
     char shown[PIR_SHOWN];
-    if (text->length > PIR_TOKEN_MAX)
+    if (pir_text_length(text) > PIR_TOKEN_MAX)
         return pir_text_fail(text, PIR_ERR_LIMIT, "a number of %zu characters in vertex %u; %d is the limit",
-                             text->length, (unsigned)point, PIR_TOKEN_MAX);
+                             pir_text_length(text), (unsigned)point, PIR_TOKEN_MAX);
     enum form form = form_of_token(text);
     *ret_exact = false;
     if (form == FORM_NOT_FINITE)
@@ -250,7 +257,7 @@ static pir_status parse_number(struct pir_text *text, uint32_t point, double *re
         return pir_text_fail(text, PIR_ERR_FORMAT, "'%s' in vertex %u is not a number", pir_text_show(text, shown),
                              (unsigned)point);
     // an integer of 15 digits is a double
-    if (exact && (form == FORM_RATIONAL || (form == FORM_INTEGER && text->length > DBL_DIG)))
+    if (exact && (form == FORM_RATIONAL || (form == FORM_INTEGER && pir_text_length(text) > DBL_DIG)))
         return parse_rational(text, ret_value, ret_exact, exact);
     return parse_decimal(text, ret_value);
 }
@@ -265,18 +272,17 @@ pir_status pir_text_exact_number(struct pir_text *text, uint32_t point, double *
     return parse_number(text, point, ret_value, ret_exact, exact);
 }
 
-bool pir_digits_count(const char *digits, size_t length, uint64_t *ret_count) {
+bool pir_digits_count(const char *digits, const char *end, uint64_t *ret_count) {
     uint64_t count = 0;
-    for (size_t i = 0; i < length; i++) {
-        char c = digits[i];
-        if (c < '0' || c > '9')
+    for (const char *s = digits; s < end; s++) {
+        if (*s < '0' || *s > '9')
             return false;
-        count = count > (UINT64_MAX - 9) / 10 ? UINT64_MAX : 10 * count + (uint64_t)(c - '0');
+        count = count > (UINT64_MAX - 9) / 10 ? UINT64_MAX : 10 * count + (uint64_t)(*s - '0');
     }
     *ret_count = count;
-    return length > 0;
+    return digits < end;
 }
 
 bool pir_text_count(const struct pir_text *text, uint64_t *ret_count) {
-    return pir_digits_count(text->token, text->length, ret_count);
+    return pir_digits_count(text->token, text->end, ret_count);
 }

@@ -23,10 +23,10 @@ struct pir_text {
     size_t line;     /* the line of that byte, from 1 */
     const char *name;
     pir_report *report;
-    bool comments;     /* '#' starts a comment, which ends with its line */
-    bool folds;        /* a backslash before the end of a line joins the next one to it */
-    const char *token; /* the last token and its line */
-    size_t length, token_line;
+    bool comments;           /* '#' starts a comment, which ends with its line */
+    bool folds;              /* a backslash before the end of a line joins the next one to it */
+    const char *token, *end; /* the last token, up to the byte at `end`, and its line */
+    size_t token_line;
     char buffer[PIR_TOKEN_MAX + 1]; /* the token as a zero-terminated string */
 };
 
@@ -34,6 +34,11 @@ void pir_text_init(struct pir_text *text, const char *bytes, size_t size, const 
 
 /* The next token, or false at the end of the text or, with `same_line`, of the line. */
 bool pir_text_next(struct pir_text *text, bool same_line);
+
+/* How many bytes the last token has. */
+static inline size_t pir_text_length(const struct pir_text *text) {
+    return (size_t)(text->end - text->token);
+}
 
 /* Passes what is left of the line, not its end. */
 void pir_text_pass_line(struct pir_text *text);
@@ -70,7 +75,7 @@ bool pir_text_is_number(struct pir_text *text);
  * none. */
 bool pir_text_count(const struct pir_text *text, uint64_t *ret_count);
 
-/* The count that `length` characters at `digits` spell. */
-bool pir_digits_count(const char *digits, size_t length, uint64_t *ret_count);
+/* The count that the characters from `digits` up to the one at `end` spell. */
+bool pir_digits_count(const char *digits, const char *end, uint64_t *ret_count);
 
 #endif
