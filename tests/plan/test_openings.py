@@ -617,7 +617,7 @@ def main(program, folder):
     sys.path.insert(0, folder)
     import motions
     import openings
-    seed, cases = int(os.environ.get("PIR_TEST_SEED", "1")), int(os.environ.get("PIR_TEST_CASES", "8"))
+    seed, cases = int(os.environ.get("PIR_TEST_SEED", "1")), int(os.environ.get("PIR_TEST_CASES", "4"))
     print("seed", seed)
     random_ = random.Random(seed)
     for _ in range(6 * cases):
@@ -639,11 +639,14 @@ def main(program, folder):
             assert not is_wrong(told, random_), "the oracle finds a proof wrong"
             hold_planes(told, random_, 2 * cases)
     round_, bent, block, closed, written = proofs
-    count = hold_lies(written, LIES + [more_room, less_smaller, no_room], random_, 1, openings)
+
+    def some(lies):
+        return random_.sample(lies, min(4 * cases, len(lies)))
+    count = hold_lies(written, some(LIES) + [more_room, less_smaller, no_room], random_, 1, openings)
     print(f"{count} lies about what the library writes are refused")
     count = hold_lies(round_, LIES, random_, cases, openings)
-    count += hold_lies(bent, LIES + [parts_parted], random_, max(1, cases // 8), openings)
-    count += hold_lies(block, LIES, random_, max(1, cases // 8), openings)
+    count += hold_lies(bent, some(LIES) + [parts_parted], random_, max(1, cases // 8), openings)
+    count += hold_lies(block, some(LIES), random_, max(1, cases // 8), openings)
     count += hold_lies(closed, [obstacle_left_out, obstacle_moved, obstacle_lifted, wide_bounds, ends_exchanged],
                        random_, cases, openings)
     print(f"{count} lies are refused")
