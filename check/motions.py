@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Checks proofs that there is no path by any motion, in rationals.
+"""Checks paths by any motion, and proofs that there is none, in rationals.
 
 Usage: motions.py FILE   the pieces in FILE are taken as the bodies, which are closed
 
 Prints `proven: ` and what is, or `refused: ` and why, and then exits with 1. It stands on meets.py, which says when two
-pieces meet throughout a box, turns.py, plan.py and cells.py beside it. openings.py has proofs by openings of planes.
+pieces meet throughout a box, turns.py, plan.py and cells.py beside it. openings.py has proofs by openings of planes,
+paths.py paths.
 
 The argument: boxes cover all rotations. Each box has sums, of a piece P of the robot and a piece O of the obstacles
 each: polytopes of translations at which P meets O at every rotation of the box, so they are blocked. The tree of the
@@ -29,6 +30,7 @@ import turns
 from cells import Cell, integers
 from meets import Pair, Turned, Whole, form
 from openings import Openings
+from paths import Paths
 from plan import Piece, Plan, cross, dot, need, sub, vector
 
 ONE = 1 << 20
@@ -205,8 +207,12 @@ class Motions(Plan):
         return f"no path: {len(self.boxes) * len(self.symmetries)} boxes of rotations keep start and end apart"
 
 
+def taken(told):
+    return (Openings if "openings" in told else Paths if "path" in told else Motions)(told)
+
+
 def main(path):
-    return turns.main(path, lambda told: (Openings if "openings" in told else Motions)(told))
+    return turns.main(path, taken)
 
 
 if __name__ == "__main__":

@@ -497,7 +497,7 @@ static bool show_turns(struct plan_run *run, const pir_turn_plan *plan, const pi
 static int tell_turns(struct plan_run *run, const pir_turn_plan *plan, struct output_file *file) {
     pir_turn_plan_info info;
     pir_turn_plan_describe(plan, &info);
-    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer == PIR_TURN_PLAN_NO_PATH;
+    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer != PIR_TURN_PLAN_UNKNOWN;
     if (is_kept && !is_proven && !print_turns_json(file->stream, run, plan, &info))
         return EXIT_BAD_INPUT;
     if (is_proven)
@@ -602,7 +602,7 @@ static bool show_motions(struct plan_run *run, const pir_rigid_plan *plan, const
 static int tell_motions(struct plan_run *run, const pir_rigid_plan *plan, struct output_file *file) {
     pir_rigid_plan_info info;
     pir_rigid_plan_describe(plan, &info);
-    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer == PIR_TURN_PLAN_NO_PATH;
+    const bool is_kept = args_has(run->args, "-o"), is_proven = info.answer != PIR_TURN_PLAN_UNKNOWN;
     if (is_kept && !is_proven && !print_motions_json(file->stream, run, plan, &info))
         return EXIT_BAD_INPUT;
     if (is_proven)

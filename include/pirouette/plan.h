@@ -144,7 +144,7 @@ typedef struct pir_turn_plan_options {
     size_t size;        /**< of this struct, which pir_turn_plan_options_default sets (base.h) */
     size_t memory;      /**< the most bytes that a division may hold, numbers included */
     pir_report *report; /**< NULL, or filled when the call fails: it names what is wrong, and where */
-    FILE *proof;        /**< NULL, or where the proof goes that there is no path, JSON; it is not closed */
+    FILE *proof;        /**< NULL, or where a path goes, or the proof that there is none, JSON; it is not closed */
     uint32_t arcs;      /**< the most arcs of the full turn: a power of two, from 8 to 65536 */
     uint32_t parts;     /**< the most parts that the boxes of all arcs may be divided into */
 } pir_turn_plan_options;
@@ -266,7 +266,7 @@ typedef struct pir_rigid_plan_options {
     size_t size;        /**< of this struct, which pir_rigid_plan_options_default sets (base.h) */
     size_t memory;      /**< the most bytes that one division may hold, and that may be kept of all */
     pir_report *report; /**< NULL, or filled when the call fails */
-    FILE *proof;        /**< NULL, or where the proof goes that there is no path, as docs/plan.md has it */
+    FILE *proof;        /**< NULL, or where a path goes, or the proof that there is none, as docs/plan.md has it */
     uint32_t boxes;     /**< the most boxes that all rotations may be divided into, at least 32 */
     uint32_t parts;     /**< the most parts that one box of translations may be divided into */
     uint32_t threads;   /**< that the work is shared among, the caller's own included; the answer is the same */

@@ -301,6 +301,26 @@ static pir_status write_proof(struct layers *l, uint32_t start) {
     return ferror(l->question->proof) ? PIR_ERR_FILE : PIR_OK;
 }
 
+/* Writes a path with the question, for one that holds it against pieces by itself. */
+static pir_status write_path(const struct layers *l, const pir_turn_result *path) {
+    FILE *const file = l->question->proof;
+    pir_plan_writer w = {.file = file, .corner = calloc(most_corners(l), sizeof *w.corner)};
+    if (!w.corner)
+        return PIR_ERR_MEMORY;
+    mpq_init(w.x);
+    put_question(&w, l);
+    fputs(",\n \"answer\": \"path\",\n \"path\": [", file);
+    for (uint32_t i = 0; i < path->steps; i++) {
+        const pir_turn_step *step = &path->step[i];
+        fprintf(file, "%s\n  {\"at\": [%.17g, %.17g, %.17g], \"radians\": [%.17g, %.17g]}", i == 0 ? "" : ",",
+                step->at[0], step->at[1], step->at[2], step->low, step->high);
+    }
+    fputs("]}\n", file);
+    mpq_clear(w.x);
+    free(w.corner);
+    return ferror(file) ? PIR_ERR_FILE : PIR_OK;
+}
+
 /* Decides by a division whose cells are joined. */
 static pir_status decide(struct layers *l, pir_turn_result *ret) {
     const pir_turn_question *q = l->question;
@@ -312,8 +332,11 @@ static pir_status decide(struct layers *l, pir_turn_result *ret) {
     if (cell[0] == PIR_PLAN_NONE || cell[1] == PIR_PLAN_NONE)
         return l->outer ? PIR_OK : PIR_ERR_ARGUMENT;
     const bool joined = root_of(l, cell[0]) == root_of(l, cell[1]);
-    if (joined && l->outer)
-        return make_path(l, cell, end, ret);
+    if (joined && l->outer) {
+        const pir_status status = make_path(l, cell, end, ret);
+        const bool is_written = status == PIR_OK && q->proof && ret->answer == PIR_TURN_PLAN_PATH;
+        return is_written ? write_path(l, ret) : status;
+    }
     if (!joined && !l->outer) {
         ret->answer = PIR_TURN_PLAN_NO_PATH;
         return q->proof ? write_proof(l, root_of(l, cell[0])) : PIR_OK;

@@ -11,7 +11,7 @@
  * for the growth of outer pieces. Points are rounded, and then each motion is held against the outer sums.
  *
  * The proof is JSON: the question, sine and cosine of half the angles where arcs begin and end, and for each arc its
- * inner pieces and the tree of its division, as docs/plan.md has it. check/turns.py checks it.
+ * inner pieces and the tree of its division, as docs/plan.md has it; or a path. check/turns.py checks them.
  *
  * So PATH and NO_PATH are both proven, and cannot both be. UNKNOWN is said where arcs, parts or memory end first.
  */
@@ -33,7 +33,7 @@ typedef struct pir_turn_question {
     uint32_t most_arcs;        /* a power of two, at least 8 */
     uint32_t most_parts;       /* of the boxes of one division */
     size_t memory;
-    FILE *proof; /* NULL, or for the proof that there is no path */
+    FILE *proof; /* NULL, or for the path, or the proof that there is none */
 } pir_turn_question;
 
 typedef struct pir_turn_step {

@@ -129,7 +129,7 @@ static void slots_are_passed_or_not(void **state) {
         assert_int_equal(info.robot_pieces, 2);
         assert_int_equal(info.obstacle_pieces, 4);
         assert_int_equal(info.steps > 0, info.answer == PIR_TURN_PLAN_PATH);
-        assert_int_equal(ftell(options.proof) > 0, info.answer == PIR_TURN_PLAN_NO_PATH);
+        assert_int_equal(ftell(options.proof) > 0, info.answer != PIR_TURN_PLAN_UNKNOWN);
         if (info.steps > 0)
             check_path(&s, plan, &info);
         assert_int_equal(fclose(options.proof), 0);

@@ -411,8 +411,9 @@ static pir_status try_openings(const pir_rigid_question *q, const pir_plan_ranks
     return status == PIR_ERR_LIMIT ? PIR_PLAN_ERR_CALLER : status;
 }
 
-pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
-                            pir_rigid_result *ret_result) {
+/* Decides a question, and writes why there is no path. */
+static pir_status decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
+                         pir_rigid_result *ret_result) {
     pir_rigid_job job = {.question = question, .makers = makers};
     *ret_result = (pir_rigid_result){0};
     pir_status status = pir_rigid_path_push(question, makers->ranks, ret_result);
@@ -430,4 +431,11 @@ pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_
     pir_rigid_hubs_finish(&job);
     pir_rigid_boxes_finish(&job);
     return note_end(job.status, job.end, ret_result);
+}
+
+pir_status pir_rigid_decide(const pir_rigid_question *question, const pir_block_makers *makers, FILE *proof,
+                            pir_rigid_result *ret_result) {
+    const pir_status status = decide(question, makers, proof, ret_result);
+    const bool is_written = status == PIR_OK && proof && ret_result->answer == PIR_TURN_PLAN_PATH;
+    return is_written ? pir_rigid_write_path(question, ret_result, proof) : status;
 }

@@ -42,12 +42,11 @@ static void put_symmetries(pir_plan_writer *w, const pir_symmetries *s) {
     fputs("]", w->file);
 }
 
-static void put_question(pir_plan_writer *w, const pir_rigid_question *q) {
-    const pir_plan_asked asked = {q->low,   q->high, {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]},
-                                  q->robot, q->wide};
+/* The question, with pieces that the obstacles are made of. */
+static void put_question(pir_plan_writer *w, const pir_rigid_question *q, const pir_plan_pieces *obstacles) {
+    const pir_plan_asked asked = {q->low,   q->high,  {q->at[0], q->at[1]}, {q->rotation[0], q->rotation[1]},
+                                  q->robot, obstacles};
     pir_plan_put_asked(w, "motions", &asked);
-    if (q->symmetries.count > 1)
-        put_symmetries(w, &q->symmetries);
 }
 
 /* Whether a division has the parts that a leaf has, bit for bit. */
@@ -193,17 +192,43 @@ static pir_status put_some(struct box_texts *texts, uint32_t *leaf, FILE *file) 
     return status;
 }
 
+/* Room for the corners of a facet of any piece, or NULL. */
+static uint32_t *corners_of(const pir_plan_pieces *robot, const pir_plan_pieces *obstacles) {
+    const uint32_t own = pir_plan_most_corners(robot), other = pir_plan_most_corners(obstacles);
+    return calloc(own > other ? own : other, sizeof(uint32_t));
+}
+
+pir_status pir_rigid_write_path(const pir_rigid_question *q, const pir_rigid_result *result, FILE *file) {
+    pir_plan_writer w = {.file = file, .corner = corners_of(q->robot, q->obstacles)};
+    if (!w.corner)
+        return PIR_ERR_MEMORY;
+    mpq_init(w.x);
+    put_question(&w, q, q->obstacles);
+    fputs(",\n \"answer\": \"path\",\n \"path\": [", file);
+    for (uint32_t i = 0; i < result->steps; i++) {
+        const pir_vec3 x = result->step[i].translation;
+        const pir_quat r = result->step[i].rotation;
+        fprintf(file, "%s\n  {\"at\": [%.17g, %.17g, %.17g], \"quat\": [%.17g, %.17g, %.17g, %.17g]}",
+                i == 0 ? "" : ",", x.x, x.y, x.z, r.x, r.y, r.z, r.w);
+    }
+    fputs("]}\n", file);
+    mpq_clear(w.x);
+    free(w.corner);
+    return ferror(file) ? PIR_ERR_FILE : PIR_OK;
+}
+
 pir_status pir_rigid_write(pir_rigid_job *job, uint32_t start, FILE *file) {
     const pir_rigid_question *q = job->question;
-    const uint32_t own = pir_plan_most_corners(q->robot), other = pir_plan_most_corners(q->wide);
-    pir_plan_writer w = {.file = file, .start = start, .corner = calloc(own > other ? own : other, sizeof *w.corner)};
+    pir_plan_writer w = {.file = file, .start = start, .corner = corners_of(q->robot, q->wide)};
     struct box_texts texts = {.job = job, .start = start};
     pir_status status = w.corner ? PIR_OK : PIR_ERR_MEMORY;
     for (uint32_t n = 0; n < job->nodes; n++)
         job->root[n] = pir_rigid_root(job->root, n);
     mpq_init(w.x);
     if (status == PIR_OK)
-        put_question(&w, q);
+        put_question(&w, q, q->wide);
+    if (status == PIR_OK && q->symmetries.count > 1)
+        put_symmetries(&w, &q->symmetries);
     fputs(",\n \"boxes\": [", file);
     for (uint32_t leaf = 0; leaf < job->leaves && status == PIR_OK;)
         status = put_some(&texts, &leaf, file);
