@@ -151,7 +151,7 @@ static bool prove(const struct args *args, const struct outcome *outcome) {
 
 SUBCOMMAND(sum) {
     struct request request;
-    if (args_has(args, "--solid") && !certificate_check(args, (const char *const[]){"--solid", NULL}))
+    if (args_has(args, "--solid") && !certificate_check(args, (const char *const[]){"--open", NULL}))
         return EXIT_BAD_INPUT;
     if (args_has(args, "--solid"))
         return solid_sum(args);

@@ -217,7 +217,8 @@ static const struct option sum_options[] = {
     {"--solid", NULL, "P and Q as the solids that they are, not their hulls; -o then takes .off"},
     {"--open", NULL, "with --solid: without their boundaries, so that tight passages are left out"},
     {"-o", "FILE", "write the sum to FILE: .off, .obj, .stl, .ply or .svg; of solids .off or .png"},
-    {"--certificate", "FILE", "write what proves the sum to FILE, for check/check.py; of hulls"},
+    {"--certificate", "FILE",
+     "write what proves the sum to FILE, for check/check.py; of solids for check/solid_sum.py"},
     MODEL_OPTIONS,
 };
 

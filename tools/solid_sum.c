@@ -6,6 +6,7 @@
 
 #include <pirouette/exact.h>
 
+#include "certificate.h"
 #include "json.h"
 #include "measure.h"
 #include "message.h"
@@ -25,6 +26,7 @@ struct request {
 
 struct outcome {
     pir_mesh *mesh;
+    pir_certificate *certificate; /* NULL, or what is to be written */
     pir_solid_sum_info info;
     double seconds;
 };
@@ -73,7 +75,7 @@ static void print_text(const struct args *args, const struct request *request, c
 static int report(const struct args *args, const struct request *request, const struct outcome *outcome) {
     if (args_has(args, "--json"))
         return print_json(args, request, outcome) ? EXIT_DONE : EXIT_BAD_INPUT;
-    if (!target_is_stdout(args, "-o"))
+    if (!target_is_stdout(args, "-o") && !target_is_stdout(args, "--certificate"))
         print_text(args, request, outcome);
     return EXIT_DONE;
 }
@@ -105,7 +107,8 @@ static bool write(struct output_file *file, pir_mesh *mesh, bool exact) {
     return target_write_mesh(file, mesh, exact || !holds_in_doubles(mesh));
 }
 
-static pir_status compute(const pir_solid *p, const pir_solid *q, const struct request *request,
+/* The certificate is made where `proven` says so. */
+static pir_status compute(const pir_solid *p, const pir_solid *q, const struct request *request, bool proven,
                           struct outcome *outcome) {
     pir_solid_sum *sum = NULL;
     pir_status status = pir_solid_sum_create(p, q, request->rotation, &request->options, &sum);
@@ -113,8 +116,17 @@ static pir_status compute(const pir_solid *p, const pir_solid *q, const struct r
         status = pir_solid_sum_mesh(sum, PIR_EXACT, &outcome->mesh);
     if (status == PIR_OK)
         status = pir_solid_sum_describe(sum, &outcome->info);
+    if (status == PIR_OK && proven)
+        status = pir_solid_sum_certificate(sum, &outcome->certificate);
     pir_solid_sum_destroy(sum);
     return status;
+}
+
+/* Writes the certificate where there is one, which is freed. */
+static bool prove(const struct args *args, struct outcome *outcome) {
+    pir_certificate *certificate = outcome->certificate;
+    outcome->certificate = NULL;
+    return !certificate || certificate_write(args, certificate);
 }
 
 int solid_sum(const struct args *args) {
@@ -136,14 +148,15 @@ int solid_sum(const struct args *args) {
     pir_solid *p = solid_load(args, 0), *q = p ? solid_load(args, 1) : NULL;
     if (p && q && (!path || output_open(&file, path))) {
         const int64_t start = clock_now();
-        const pir_status status = compute(p, q, &request, &outcome);
+        const pir_status status = compute(p, q, &request, args_has(args, "--certificate"), &outcome);
         outcome.seconds = (double)(clock_now() - start) / 1e9;
         if (status != PIR_OK)
             complain_status("sum", status, &fault);
-        else if (!path || write(&file, outcome.mesh, args_has(args, "--exact")))
+        else if ((!path || write(&file, outcome.mesh, args_has(args, "--exact"))) && prove(args, &outcome))
             result = report(args, &request, &outcome);
     }
     output_discard(&file);
+    pir_certificate_destroy(outcome.certificate);
     pir_mesh_destroy(outcome.mesh);
     pir_solid_release(q);
     pir_solid_release(p);

@@ -13,6 +13,8 @@
  * - "depth": all facets of the difference, each with a plane that supports both bodies, and their edges closed.
  * - "sum": the same of a sum; "difference": of a difference.
  *
+ * That of a sum of solids has another form, which `check/solid_sum.py` reads.
+ *
  * Every number is found anew, by integers alone. An answer that it contradicts is refused.
  */
 #ifndef PIROUETTE_CERTIFICATE_H
@@ -20,6 +22,7 @@
 
 #include <pirouette/base.h>
 #include <pirouette/query.h>
+#include <pirouette/solid.h>
 #include <pirouette/sum.h>
 
 #ifdef __cplusplus
@@ -65,6 +68,23 @@ PIR_API pir_status pir_query_certificate(pir_query *query, const pir_query_input
  * Errors: as above, and PIR_ERR_ARGUMENT for a sum that is a point or a segment.
  */
 PIR_API pir_status pir_sum_certificate(pir_sum *sum, pir_certificate **ret_certificate);
+
+/**
+ * The certificate that the mesh of a closed sum or difference of solids, as pir_solid_sum_mesh has it, bounds exactly
+ * that sum: convex pieces of both, a box divided until each part is in the sum of two pieces or free of all, and the
+ * mesh. `check/solid_sum.py` reads it. It lasts without the sum, and is of its allocator; rationals are in GMP's
+ * memory. A call belongs to the thread that the sum belongs to. The sum's `memory` bounds what is held meanwhile.
+ *
+ * sum              neither open nor scaled; what it keeps may change as by pir_solid_sum_mesh, its answers do not.
+ * ret_certificate  to be freed with pir_certificate_destroy.
+ *
+ * Cost: pir_solid_decompose of each; for k sums of pairs of bounded size that all meet O(k³) parts, mostly some tens
+ * for each sum.
+ *
+ * Errors: PIR_ERR_ARGUMENT (NULL, an open or scaled sum); PIR_ERR_LIMIT where more memory or more than 2,000,000 parts
+ * are needed, which the sum's report tells; PIR_ERR_MEMORY; else as of pir_solid_sum_mesh.
+ */
+PIR_API pir_status pir_solid_sum_certificate(pir_solid_sum *sum, pir_certificate **ret_certificate);
 
 /**
  * The text, with a zero behind its end; valid as long as the certificate.

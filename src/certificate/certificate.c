@@ -32,7 +32,7 @@ struct job {
     pir_proof_text text;
 };
 
-static pir_status new_certificate(const pir_proof_text *text, pir_certificate **ret_certificate) {
+pir_status pir_proof_text_certificate(const pir_proof_text *text, pir_certificate **ret_certificate) {
     pir_certificate *certificate = text->failed ? NULL : PIR_NEW(&text->allocator, pir_certificate, 1);
     if (!certificate)
         return PIR_ERR_MEMORY;
@@ -279,7 +279,7 @@ pir_status pir_query_certificate(pir_query *query, const pir_query_input *input,
     status = write_answer(&job, query->sum);
     pir_proof_text_end(&job.text);
     if (status == PIR_OK)
-        status = new_certificate(&job.text, ret_certificate);
+        status = pir_proof_text_certificate(&job.text, ret_certificate);
     if (status != PIR_OK)
         pir_bytes_finish(&job.text.bytes, &job.text.allocator);
     mpz_clear(job.slack);
@@ -323,7 +323,7 @@ pir_status pir_sum_certificate(pir_sum *sum, pir_certificate **ret_certificate) 
         return status;
     status = write_sum(&text, &bodies, sum);
     if (status == PIR_OK)
-        status = new_certificate(&text, ret_certificate);
+        status = pir_proof_text_certificate(&text, ret_certificate);
     if (status != PIR_OK)
         pir_bytes_finish(&text.bytes, &text.allocator);
     pir_stance_finish(&bodies);

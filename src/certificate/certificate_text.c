@@ -190,3 +190,15 @@ void pir_proof_text_boundary(pir_proof_text *text, const pir_boundary *boundary)
     }
     put(text, "\n]");
 }
+
+void pir_proof_text_put(pir_proof_text *text, const char *string) {
+    put(text, string);
+}
+
+void pir_proof_text_put_count(pir_proof_text *text, uint32_t value) {
+    put_count(text, value);
+}
+
+void pir_proof_text_put_ratio(pir_proof_text *text, const mpz_t num, const mpz_t den) {
+    put_ratio(text, num, den);
+}

@@ -6,6 +6,8 @@
 #ifndef PIR_CERTIFICATE_CERTIFICATE_TEXT_H
 #define PIR_CERTIFICATE_CERTIFICATE_TEXT_H
 
+#include <pirouette/certificate.h>
+
 #include "base/byte_block.h"
 #include "certificate/sum_facets.h"
 
@@ -36,5 +38,13 @@ void pir_proof_text_mix(pir_proof_text *text, const pir_stance *bodies, const pi
 
 /* Vertices as corners, facets as cycles of those: "vertices", "facets". */
 void pir_proof_text_boundary(pir_proof_text *text, const pir_boundary *boundary);
+
+/* Texts, numbers and rationals as they stand, for what has another form. */
+void pir_proof_text_put(pir_proof_text *text, const char *string);
+void pir_proof_text_put_count(pir_proof_text *text, uint32_t value);
+void pir_proof_text_put_ratio(pir_proof_text *text, const mpz_t num, const mpz_t den);
+
+/* The certificate that has this text, which is its own then; PIR_ERR_MEMORY where memory ran out meanwhile. */
+pir_status pir_proof_text_certificate(const pir_proof_text *text, pir_certificate **ret_certificate);
 
 #endif

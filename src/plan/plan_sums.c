@@ -122,15 +122,21 @@ static pir_status open_sum(pir_plan_space *space, uint32_t robot, uint32_t obsta
     return PIR_OK;
 }
 
-pir_status pir_plan_sums_add(pir_plan_space *space, const pir_polytope *made, uint32_t robot, uint32_t obstacle,
-                             pir_plan_sums *sums) {
-    pir_mesh *mesh = NULL;
+pir_status pir_plan_sums_add_mesh(pir_plan_space *space, const pir_mesh *mesh, uint32_t robot, uint32_t obstacle,
+                                  pir_plan_sums *sums) {
     pir_status status = open_sum(space, robot, obstacle, sums);
-    if (status == PIR_OK)
-        status = pir_mesh_from_polytope(made, &mesh);
     if (status == PIR_OK)
         status = add_mesh(space, mesh, sums, &sums->sum[sums->count]);
     sums->count += status == PIR_OK;
+    return status;
+}
+
+pir_status pir_plan_sums_add(pir_plan_space *space, const pir_polytope *made, uint32_t robot, uint32_t obstacle,
+                             pir_plan_sums *sums) {
+    pir_mesh *mesh = NULL;
+    pir_status status = pir_mesh_from_polytope(made, &mesh);
+    if (status == PIR_OK)
+        status = pir_plan_sums_add_mesh(space, mesh, robot, obstacle, sums);
     pir_mesh_destroy(mesh);
     return status;
 }

@@ -7,6 +7,7 @@
 #ifndef PIR_PLAN_PLAN_SUMS_H
 #define PIR_PLAN_PLAN_SUMS_H
 
+#include <pirouette/mesh.h>
 #include <pirouette/polytope.h>
 #include <pirouette/solid.h>
 
@@ -43,6 +44,9 @@ pir_status pir_plan_sums_make(pir_plan_space *space, const pir_plan_pieces *robo
 /* Adds a polytope as that of two pieces. */
 pir_status pir_plan_sums_add(pir_plan_space *space, const pir_polytope *made, uint32_t robot, uint32_t obstacle,
                              pir_plan_sums *sums);
+/* Adds what an exact mesh of a convex sum bounds, likewise. */
+pir_status pir_plan_sums_add_mesh(pir_plan_space *space, const pir_mesh *mesh, uint32_t robot, uint32_t obstacle,
+                                  pir_plan_sums *sums);
 void pir_plan_sums_finish(pir_plan_space *space, pir_plan_sums *sums);
 
 /* The first sum that has a point, in its inside where sums are open; none. */

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The certificate of a sum of solids: their convex pieces, a box that is divided by planes of the sums of pairs until
+ * each part is blocked by one sum or free of all, and the mesh, which is to bound the blocked parts. docs/proofs.md has
+ * the format and the argument, check/solid_sum.py looks at it.
+ *
+ * Pieces of P are the robot's and those of Q the obstacles'. Nothing of the sum is used but its solids, its rotation
+ * and its mesh: pieces and parts are made anew.
+ */
+#include <pirouette/certificate.h>
+
+#include <pirouette/exact.h>
+
+#include "base/report.h"
+#include "certificate/certificate_text.h"
+#include "plan/divide.h"
+#include "solid/kept/solid_sum.h"
+
+/* The most parts of a certificate: some hundred megabytes. */
+#define PARTS_MOST 2000000
+
+struct job {
+    pir_solid_sum *sum;
+    pir_plan_space space;
+    pir_plan_pieces piece[2]; /* of P, of Q */
+    pir_plan_sums sums;
+    pir_plan_tree tree;
+    pir_mesh *mesh;
+    pir_proof_text text;
+};
+
+/* --- what is proven --- */
+
+static pir_status add_pair(struct job *job, uint32_t k, uint32_t l) {
+    pir_sum_options options = pir_sum_options_default();
+    pir_sum *made = NULL;
+    pir_mesh *mesh = NULL;
+    options.allocator = &job->space.allocator;
+    options.difference = job->sum->options.difference;
+    pir_status status = pir_sum_create(job->piece[0].at[k], job->piece[1].at[l], job->sum->rotation, &options, &made);
+    if (status == PIR_OK)
+        status = pir_sum_mesh(made, PIR_EXACT, &mesh);
+    if (status == PIR_OK)
+        status = pir_plan_sums_add_mesh(&job->space, mesh, k, l, &job->sums);
+    pir_mesh_destroy(mesh);
+    pir_sum_destroy(made);
+    return status;
+}
+
+static pir_status add_pairs(struct job *job) {
+    pir_status status = PIR_OK;
+    for (uint32_t k = 0; k < job->piece[0].count; k++)
+        for (uint32_t l = 0; l < job->piece[1].count && status == PIR_OK; l++)
+            status = add_pair(job, k, l);
+    return status;
+}
+
+/* A box that has all sums within it, an eighth of the widest side away. */
+static pir_status make_box(struct job *job, pir_report *report) {
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    for (uint32_t i = 0; i < job->sums.count; i++)
+        for (int k = 0; k < 3; k++) {
+            low[k] = fmin(low[k], job->sums.sum[i].low[k]);
+            high[k] = fmax(high[k], job->sums.sum[i].high[k]);
+        }
+    for (int k = 0; k < 3; k++)
+        widest = fmax(widest, high[k] - low[k]);
+    for (int k = 0; k < 3; k++) {
+        double *box[2] = {&job->tree.low[k], &job->tree.high[k]};
+        *box[0] = low[k] - widest / 8;
+        *box[1] = high[k] + widest / 8;
+        if (!isfinite(*box[0]) || !isfinite(*box[1]) || *box[0] >= low[k] || *box[1] <= high[k])
+            return pir_fail(report, PIR_ERR_LIMIT, "certificate: coordinates are too large for a box around all");
+    }
+    return PIR_OK;
+}
+
+static pir_status divide_box(struct job *job) {
+    pir_plan_cutter cutter = {.space = &job->space};
+    pir_plan_divide(&cutter, &job->sums, PARTS_MOST, &job->tree);
+    pir_plan_cutter_finish(&cutter);
+    return job->space.status;
+}
+
+/* --- the text --- */
+
+static void put_rationals(pir_proof_text *text, mpq_t *x, int count) {
+    for (int k = 0; k < count; k++) {
+        pir_proof_text_put(text, k == 0 ? "[" : ", ");
+        pir_proof_text_put_ratio(text, mpq_numref(x[k]), mpq_denref(x[k]));
+    }
+    pir_proof_text_put(text, "]");
+}
+
+static void put_doubles(pir_proof_text *text, const char *before, const double *x, int count) {
+    mpq_t exact[4];
+    mpq_inits(exact[0], exact[1], exact[2], exact[3], NULL);
+    for (int k = 0; k < count; k++)
+        mpq_set_d(exact[k], x[k]);
+    pir_proof_text_put(text, before);
+    put_rationals(text, exact, count);
+    mpq_clears(exact[0], exact[1], exact[2], exact[3], NULL);
+}
+
+/* One corner of a facet, the first of a list of facets or another. */
+static void put_corner(pir_proof_text *text, uint32_t facet, uint32_t place, uint32_t corner) {
+    pir_proof_text_put(text, place > 0 ? ", " : facet == 0 ? "[[" : "],\n[");
+    pir_proof_text_put_count(text, corner);
+}
+
+static void put_piece(pir_proof_text *text, const pir_polytope *piece, uint32_t *corner) {
+    mpq_t x[3];
+    mpq_inits(x[0], x[1], x[2], NULL);
+    pir_proof_text_put(text, "{\"points\": [");
+    for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++) {
+        pir_polytope_vertex_exact(piece, v, x);
+        pir_proof_text_put(text, v == 0 ? "" : ",\n");
+        put_rationals(text, x, 3);
+    }
+    pir_proof_text_put(text, "],\n\"facets\": ");
+    for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
+        pir_polytope_facet(piece, f, corner);
+        for (uint32_t i = 0; i < pir_polytope_facet_size(piece, f); i++)
+            put_corner(text, f, i, corner[i]);
+    }
+    pir_proof_text_put(text, "]]}");
+    mpq_clears(x[0], x[1], x[2], NULL);
+}
+
+static uint32_t most_corners(const pir_plan_pieces *pieces) {
+    uint32_t most = 1;
+    for (uint32_t i = 0; i < pieces->count; i++)
+        most = pir_polytope_vertex_count(pieces->at[i]) > most ? pir_polytope_vertex_count(pieces->at[i]) : most;
+    return most;
+}
+
+static void put_pieces(struct job *job, const char *key, const pir_plan_pieces *pieces) {
+    const uint32_t most = most_corners(pieces);
+    uint32_t *corner = pir_plan_new(&job->space, most, sizeof *corner);
+    pir_proof_text_put(&job->text, key);
+    for (uint32_t i = 0; i < pieces->count && corner; i++) {
+        pir_proof_text_put(&job->text, i == 0 ? "[\n" : ",\n");
+        put_piece(&job->text, pieces->at[i], corner);
+    }
+    pir_proof_text_put(&job->text, "\n]");
+    pir_plan_free(&job->space, corner, most, sizeof *corner);
+}
+
+/* A half-space as a, b, c, d of a·x + b·y + c·z ≤ d. */
+static void put_half(struct job *job, uint32_t half, mpz_t number, const mpz_t one) {
+    const pir_plan_plane *plane = &job->space.plane[half >> 1];
+    for (int k = 0; k < 4; k++) {
+        mpz_set(number, k < 3 ? plane->n[k] : plane->d);
+        if (half & 1)
+            mpz_neg(number, number);
+        pir_proof_text_put(&job->text, k == 0 ? "[" : ", ");
+        pir_proof_text_put_ratio(&job->text, number, one);
+    }
+    pir_proof_text_put(&job->text, "]");
+}
+
+static void put_tree(struct job *job) {
+    pir_proof_text *text = &job->text;
+    mpz_t number, one;
+    mpz_init(number);
+    mpz_init_set_ui(one, 1);
+    for (uint32_t i = 0; i < job->tree.node_count; i++) {
+        const pir_plan_node *node = &job->tree.node[i];
+        pir_proof_text_put(text, i == 0 ? ",\n\"tree\": [\n" : ",\n");
+        if (node->part == PIR_PLAN_FREE) {
+            pir_proof_text_put(text, "[\"free\"]");
+            continue;
+        }
+        const bool is_split = node->part == PIR_PLAN_SPLIT;
+        pir_proof_text_put(text, is_split ? "[\"split\", " : "[\"blocked\"");
+        if (is_split)
+            put_half(job, node->by, number, one);
+        for (int k = 0; k < 2; k++) {
+            const pir_plan_sum *sum = &job->sums.sum[is_split ? 0 : node->by];
+            pir_proof_text_put(text, ", ");
+            pir_proof_text_put_count(text, is_split ? node->child[k] : k == 0 ? sum->robot : sum->obstacle);
+        }
+        pir_proof_text_put(text, "]");
+    }
+    pir_proof_text_put(text, "\n]");
+    mpz_clears(number, one, NULL);
+}
+
+static void put_mesh(struct job *job) {
+    pir_proof_text *text = &job->text;
+    const uint32_t counts[3] = {pir_mesh_vertex_count(job->mesh), pir_mesh_edge_count(job->mesh),
+                                pir_mesh_facet_count(job->mesh)};
+    const char *const keys[3] = {"vertex_count", "edge_count", "facet_count"};
+    mpq_t x[3];
+    mpq_inits(x[0], x[1], x[2], NULL);
+    for (int k = 0; k < 3; k++)
+        pir_proof_text_count(text, keys[k], counts[k]);
+    for (uint32_t v = 0; v < counts[0]; v++) {
+        pir_mesh_vertex_exact(job->mesh, v, x);
+        pir_proof_text_put(text, v == 0 ? ",\n\"vertices\": [\n" : ",\n");
+        put_rationals(text, x, 3);
+    }
+    pir_proof_text_put(text, "\n],\n\"facets\": ");
+    for (uint32_t f = 0; f < counts[2]; f++) {
+        uint32_t count;
+        const uint32_t *corner = pir_mesh_facet(job->mesh, f, &count);
+        for (uint32_t i = 0; i < count; i++)
+            put_corner(text, f, i, corner[i]);
+    }
+    pir_proof_text_put(text, "]]");
+    mpq_clears(x[0], x[1], x[2], NULL);
+}
+
+static pir_status put_all(struct job *job) {
+    const pir_quat q = job->sum->rotation;
+    pir_proof_text_put(&job->text, "{\n\"pirouette_solid_sum\": 1,\n\"claim\": \"");
+    pir_proof_text_put(&job->text, job->sum->options.difference ? "difference" : "sum");
+    put_doubles(&job->text, "\",\n\"quat\": ", (const double[4]){q.x, q.y, q.z, q.w}, 4);
+    put_pieces(job, ",\n\"p\": ", &job->piece[0]);
+    put_pieces(job, ",\n\"q\": ", &job->piece[1]);
+    put_doubles(&job->text, ",\n\"low\": ", job->tree.low, 3);
+    put_doubles(&job->text, ",\n\"high\": ", job->tree.high, 3);
+    put_tree(job);
+    put_mesh(job);
+    pir_proof_text_end(&job->text);
+    return job->space.status;
+}
+
+/* --- the call --- */
+
+static pir_status make_proof(struct job *job, pir_report *report) {
+    pir_status status = pir_solid_sum_mesh(job->sum, PIR_EXACT, &job->mesh);
+    for (int k = 0; k < 2 && status == PIR_OK; k++) {
+        const pir_solid *solid = job->sum->solid[k];
+        status = pir_plan_pieces_add(&job->space, &solid, 1, k == 0 ? "P" : "Q", report, &job->piece[k]);
+    }
+    if (status == PIR_OK)
+        status = add_pairs(job);
+    if (status == PIR_OK)
+        status = make_box(job, report);
+    if (status == PIR_OK)
+        status = divide_box(job);
+    return status == PIR_OK ? put_all(job) : status;
+}
+
+/* What the caller is told. */
+static pir_status tell(const struct job *job, pir_status status, pir_report *report) {
+    if (status == PIR_PLAN_ERR_PARTS)
+        return pir_fail(report, PIR_ERR_LIMIT, "certificate: more than %d parts are needed", PARTS_MOST);
+    if (status == PIR_ERR_LIMIT && job->space.status == PIR_ERR_LIMIT)
+        return pir_fail(report, status, "certificate: more than %zu bytes are needed, with %u parts made",
+                        job->sum->options.memory, job->tree.node_count);
+    if (status == PIR_ERR_MEMORY)
+        return pir_fail(report, status, "certificate: out of memory");
+    return status;
+}
+
+pir_status pir_solid_sum_certificate(pir_solid_sum *sum, pir_certificate **ret_certificate) {
+    if (!sum || !ret_certificate)
+        return PIR_ERR_ARGUMENT;
+    pir_report *report = sum->options.report;
+    if (sum->options.open)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "certificate: there is none of sums of open solids");
+    if (sum->scale[0] != 1 || sum->scale[1] != 1)
+        return pir_fail(report, PIR_ERR_ARGUMENT, "certificate: there is none of solids that are scaled");
+    struct job job = {.sum = sum, .text = {sum->allocator, {0}, false}};
+    pir_plan_space_init(&job.space, &sum->allocator, sum->options.memory);
+    pir_status status = make_proof(&job, report);
+    if (status == PIR_OK)
+        status = pir_proof_text_certificate(&job.text, ret_certificate);
+    status = status == PIR_OK ? PIR_OK : tell(&job, status, report);
+    if (status != PIR_OK)
+        pir_bytes_finish(&job.text.bytes, &job.text.allocator);
+    pir_mesh_destroy(job.mesh);
+    pir_plan_tree_finish(&job.space, &job.tree);
+    pir_plan_sums_finish(&job.space, &job.sums);
+    for (int k = 0; k < 2; k++)
+        pir_plan_pieces_finish(&job.space, &job.piece[k]);
+    pir_plan_space_finish(&job.space);
+    return status;
+}
