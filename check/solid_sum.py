@@ -195,9 +195,9 @@ class SolidSum:
 
     def check(self, models):
         need(len(models) in (0, 2), "two models are wanted, or none")
+        counts = self.read_mesh()
         for model, pieces in zip(models, (self.p, self.q)):
             Model(model).check(pieces)
-        counts = self.read_mesh()
         self.check_tree()
         return f"{self.told['claim']}, {counts}"
 

@@ -13,7 +13,7 @@
  * - "depth": all facets of the difference, each with a plane that supports both bodies, and their edges closed.
  * - "sum": the same of a sum; "difference": of a difference.
  *
- * That of a sum of solids has another form, which `check/solid_sum.py` reads.
+ * That of a sum of solids has another form, which `check/solid_sum.py` reads (docs/proofs.md).
  *
  * Every number is found anew, by integers alone. An answer that it contradicts is refused.
  */

@@ -19,7 +19,7 @@
 /* The most parts of a certificate: some hundred megabytes. */
 #define PARTS_MOST 2000000
 
-struct job {
+struct sum_proof {
     pir_solid_sum *sum;
     pir_plan_space space;
     pir_plan_pieces piece[2]; /* of P, of Q */
@@ -31,7 +31,7 @@ struct job {
 
 /* --- what is proven --- */
 
-static pir_status add_pair(struct job *job, uint32_t k, uint32_t l) {
+static pir_status add_pair(struct sum_proof *job, uint32_t k, uint32_t l) {
     pir_sum_options options = pir_sum_options_default();
     pir_sum *made = NULL;
     pir_mesh *mesh = NULL;
@@ -47,7 +47,7 @@ static pir_status add_pair(struct job *job, uint32_t k, uint32_t l) {
     return status;
 }
 
-static pir_status add_pairs(struct job *job) {
+static pir_status add_pairs(struct sum_proof *job) {
     pir_status status = PIR_OK;
     for (uint32_t k = 0; k < job->piece[0].count; k++)
         for (uint32_t l = 0; l < job->piece[1].count && status == PIR_OK; l++)
@@ -56,7 +56,7 @@ static pir_status add_pairs(struct job *job) {
 }
 
 /* A box that has all sums within it, an eighth of the widest side away. */
-static pir_status make_box(struct job *job, pir_report *report) {
+static pir_status make_box(struct sum_proof *job, pir_report *report) {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
     for (uint32_t i = 0; i < job->sums.count; i++)
         for (int k = 0; k < 3; k++) {
@@ -75,7 +75,7 @@ static pir_status make_box(struct job *job, pir_report *report) {
     return PIR_OK;
 }
 
-static pir_status divide_box(struct job *job) {
+static pir_status divide_box(struct sum_proof *job) {
     pir_plan_cutter cutter = {.space = &job->space};
     pir_plan_divide(&cutter, &job->sums, PARTS_MOST, &job->tree);
     pir_plan_cutter_finish(&cutter);
@@ -134,7 +134,7 @@ static uint32_t most_corners(const pir_plan_pieces *pieces) {
     return most;
 }
 
-static void put_pieces(struct job *job, const char *key, const pir_plan_pieces *pieces) {
+static void put_pieces(struct sum_proof *job, const char *key, const pir_plan_pieces *pieces) {
     const uint32_t most = most_corners(pieces);
     uint32_t *corner = pir_plan_new(&job->space, most, sizeof *corner);
     pir_proof_text_put(&job->text, key);
@@ -147,7 +147,7 @@ static void put_pieces(struct job *job, const char *key, const pir_plan_pieces *
 }
 
 /* A half-space as a, b, c, d of a·x + b·y + c·z ≤ d. */
-static void put_half(struct job *job, uint32_t half, mpz_t number, const mpz_t one) {
+static void put_half(struct sum_proof *job, uint32_t half, mpz_t number, const mpz_t one) {
     const pir_plan_plane *plane = &job->space.plane[half >> 1];
     for (int k = 0; k < 4; k++) {
         mpz_set(number, k < 3 ? plane->n[k] : plane->d);
@@ -159,7 +159,7 @@ static void put_half(struct job *job, uint32_t half, mpz_t number, const mpz_t o
     pir_proof_text_put(&job->text, "]");
 }
 
-static void put_tree(struct job *job) {
+static void put_tree(struct sum_proof *job) {
     pir_proof_text *text = &job->text;
     mpz_t number, one;
     mpz_init(number);
@@ -186,7 +186,7 @@ static void put_tree(struct job *job) {
     mpz_clears(number, one, NULL);
 }
 
-static void put_mesh(struct job *job) {
+static void put_mesh(struct sum_proof *job) {
     pir_proof_text *text = &job->text;
     const uint32_t counts[3] = {pir_mesh_vertex_count(job->mesh), pir_mesh_edge_count(job->mesh),
                                 pir_mesh_facet_count(job->mesh)};
@@ -211,7 +211,7 @@ static void put_mesh(struct job *job) {
     mpq_clears(x[0], x[1], x[2], NULL);
 }
 
-static pir_status put_all(struct job *job) {
+static pir_status put_all(struct sum_proof *job) {
     const pir_quat q = job->sum->rotation;
     pir_proof_text_put(&job->text, "{\n\"pirouette_solid_sum\": 1,\n\"claim\": \"");
     pir_proof_text_put(&job->text, job->sum->options.difference ? "difference" : "sum");
@@ -228,7 +228,7 @@ static pir_status put_all(struct job *job) {
 
 /* --- the call --- */
 
-static pir_status make_proof(struct job *job, pir_report *report) {
+static pir_status make_proof(struct sum_proof *job, pir_report *report) {
     pir_status status = pir_solid_sum_mesh(job->sum, PIR_EXACT, &job->mesh);
     for (int k = 0; k < 2 && status == PIR_OK; k++) {
         const pir_solid *solid = job->sum->solid[k];
@@ -243,8 +243,8 @@ static pir_status make_proof(struct job *job, pir_report *report) {
     return status == PIR_OK ? put_all(job) : status;
 }
 
-/* What the caller is told. */
-static pir_status tell(const struct job *job, pir_status status, pir_report *report) {
+/* Fills the report where what was called has not. The status that the caller is told. */
+static pir_status tell(const struct sum_proof *job, pir_status status, pir_report *report) {
     if (status == PIR_PLAN_ERR_PARTS)
         return pir_fail(report, PIR_ERR_LIMIT, "certificate: more than %d parts are needed", PARTS_MOST);
     if (status == PIR_ERR_LIMIT && job->space.status == PIR_ERR_LIMIT)
@@ -263,7 +263,7 @@ pir_status pir_solid_sum_certificate(pir_solid_sum *sum, pir_certificate **ret_c
         return pir_fail(report, PIR_ERR_ARGUMENT, "certificate: there is none of sums of open solids");
     if (sum->scale[0] != 1 || sum->scale[1] != 1)
         return pir_fail(report, PIR_ERR_ARGUMENT, "certificate: there is none of solids that are scaled");
-    struct job job = {.sum = sum, .text = {sum->allocator, {0}, false}};
+    struct sum_proof job = {.sum = sum, .text = {sum->allocator, {0}, false}};
     pir_plan_space_init(&job.space, &sum->allocator, sum->options.memory);
     pir_status status = make_proof(&job, report);
     if (status == PIR_OK)

@@ -9,6 +9,11 @@ from pathlib import Path
 from command_test import CommandTest, main
 
 CHECKER = Path(__file__).resolve().parents[2] / "check" / "check.py"
+FRAME = ("OFF\n16 16 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for n in (0, 1) for x, y in
+                                   ((n, n), (3 - n, n), (3 - n, 3 - n), (n, 3 - n))) +
+         "".join(f"4 {a} {b} {b + 8} {a + 8}\n4 {b + 4} {a + 4} {a + 12} {b + 12}\n"
+                 f"4 {b} {a} {a + 4} {b + 4}\n4 {a + 8} {b + 8} {b + 12} {a + 12}\n"
+                 for a, b in ((0, 1), (1, 2), (2, 3), (3, 0))))
 CUBE = "OFF\n9 0 0\n1 1 1\n1 1 -1\n1 -1 1\n1 -1 -1\n-1 1 1\n-1 1 -1\n-1 -1 1 # a comment\n-1 -1 -1\n1/2 1/3 0\n"
 OBJ = "v 0.1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e0\nf 1 2 3\nf 1 2 4\n"
 
@@ -19,9 +24,10 @@ class Certificates(CommandTest):
         self.cube, self.obj = self.file("cube.off", CUBE), self.file("corner.obj", OBJ)
         self.certificate, self.answer = self.path / "certificate.json", self.path / "answer.json"
 
-    def check(self, *args):
+    def check(self, *args, checker="check.py"):
         """Exit status and text of the checker, which says nothing on stderr."""
-        done = subprocess.run([sys.executable, "-B", CHECKER, *map(str, args)], capture_output=True, text=True)
+        done = subprocess.run([sys.executable, "-B", CHECKER.parent / checker, *map(str, args)], capture_output=True,
+                              text=True)
         self.assertEqual(done.stderr, "", args)
         return done.returncode, done.stdout
 
@@ -51,6 +57,20 @@ class Certificates(CommandTest):
         for options, claim in (((), "sum"), (("--difference", "--axis=1,1,0", "--angle=30"), "difference")):
             self.good("sum", self.cube, self.pyramid, *options, "--certificate", self.certificate)
             self.assertEqual(self.check(self.certificate, self.cube, self.pyramid), (0, f"proven: {claim}\n"))
+
+    def test_sums_of_solids_are_proven(self):
+        frame = self.file("frame.off", FRAME)
+        question = ("--solid", "--quat=0,0,1,2", "--certificate", self.certificate)
+        for options, claim in (((), "sum"), (("--difference",), "difference")):
+            told = self.good("sum", frame, frame, *question, "--json", *options)
+            status, text = self.check(self.certificate, frame, frame, checker="solid_sum.py")
+            counts = "{vertices} vertices, {edges} edges, {facets} facets".format(**json.loads(told))
+            self.assertEqual((status, text.split(", volume")[0]), (0, f"proven: {claim}, {counts}"))
+        status, text = self.check(self.certificate, frame, self.cube, checker="solid_sum.py")
+        self.assertEqual((status, text.split()[0]), (1, "refused:"))
+        text = self.good("sum", frame, frame, "--solid", "--certificate=-")
+        self.certificate.write_text(text, encoding="ascii")
+        self.assertEqual(self.check(self.certificate, checker="solid_sum.py")[0], 0)
 
     def test_the_failing_line_is_named(self):
         self.ask(self.cube, self.cube, "--translate=1.5,0,0")
@@ -98,8 +118,8 @@ class Certificates(CommandTest):
             self.bad(*query, "--certificate", self.certificate, *option, says=option[0].split("=")[0])
         self.bad(*query, "--certificate=-", "--json", says="--certificate")
         self.bad(*query, "--certificate", self.path / "none" / "file", says="none")
-        for option in ("--solid", "--merge=0.1"):
-            self.bad("sum", self.cube, self.cube, "--certificate", self.certificate, option, says="certificate")
+        for options in (("--merge=0.1",), ("--solid", "--open"), ("--solid", "--merge=0.1")):
+            self.bad("sum", self.cube, self.cube, "--certificate", self.certificate, *options, says=options[-1][:6])
         line = self.file("line.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n")
         self.bad("sum", line, line, "--certificate", self.certificate, says="segment")
         self.assertFalse(self.certificate.exists())
