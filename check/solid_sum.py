@@ -207,7 +207,7 @@ def main(path, *models):
         with open(path, encoding="utf-8") as file:
             print("proven:", SolidSum(json.load(file)).check(models))
         return 0
-    except (ValueError, LookupError, TypeError, AttributeError, ZeroDivisionError, OSError) as error:
+    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, OSError) as error:
         print(f"refused: {type(error).__name__}: {error}")
         return 1
 
