@@ -12,13 +12,6 @@
 #include "dymsum/view.h"
 #include "query/answer/follow.h"
 
-struct pir_certificate {
-    pir_proof_text text;
-};
-
-/* Numbers of answers agree within this, relative to the largest coordinate: ten times what they promise. */
-#define NUMBER_ERROR 1e-11
-
 /* A job: an answer at a placement. */
 struct job {
     pir_stance bodies;
@@ -32,30 +25,10 @@ struct job {
     pir_proof_text text;
 };
 
-pir_status pir_proof_text_certificate(const pir_proof_text *text, pir_certificate **ret_certificate) {
-    pir_certificate *certificate = text->failed ? NULL : PIR_NEW(&text->allocator, pir_certificate, 1);
-    if (!certificate)
-        return PIR_ERR_MEMORY;
-    certificate->text = *text;
-    *ret_certificate = certificate;
-    return PIR_OK;
-}
-
-/* Whether √(num / den), as a double, is the number of the answer. */
+/* Whether √(num / den) is the number of the answer. */
 static bool is_number(const struct job *job, const mpz_t num, const mpz_t den) {
-    long exponent;
-    double square = pir_ratio_split(num, den, &exponent);
-    if (job->answer->outcome == PIR_BEYOND_CUTOFF)
-        return true;
-    if (exponent % 2 != 0) {
-        square *= 2;
-        exponent--;
-    }
-    double length = ldexp(sqrt(square), (int)(exponent / 2));
-    const pir_vec3 t = job->bodies.translation;
-    double reach = length + pir_stance_reach(&job->bodies) + fabs(t.x) + fabs(t.y) + fabs(t.z);
-    double off = fabs(fabs(job->answer->distance) - length);
-    return off <= NUMBER_ERROR * reach || (isinf(reach) && !isnan(job->answer->distance));
+    return job->answer->outcome == PIR_BEYOND_CUTOFF ||
+           pir_stance_is_length(&job->bodies, job->answer->distance, num, den);
 }
 
 /* --- the bodies apart --- */
@@ -89,35 +62,15 @@ static void write_plane(struct job *job) {
     mpz_mul(square, square, job->bodies.unit);
     mpz_mul(square, square, job->bodies.unit);
     // the plane's other side: P lowest, Q farthest along the normal
-    for (int k = 0; k < 3; k++)
-        mpz_neg(job->normal.c[k], job->normal.c[k]);
+    pir_triple_negate(&job->normal);
     pir_stance_list(&job->bodies, pir_stance_lowest(&job->bodies, &job->normal));
-    for (int k = 0; k < 3; k++)
-        mpz_neg(job->normal.c[k], job->normal.c[k]);
+    pir_triple_negate(&job->normal);
     pir_proof_text_begin(&job->text, "apart", &job->bodies);
     pir_proof_text_triple(&job->text, "normal", &job->normal);
     pir_proof_text_integer(&job->text, "low", low);
     pir_proof_text_integer(&job->text, "high", high);
     pir_proof_text_ratio(&job->text, "gap_squared", gap, square);
     mpz_clears(low, high, square, gap, NULL);
-}
-
-/* The point of a body that a mix is at: `body` is 0 for P, 1 for Q. */
-static void write_point(struct job *job, const char *key, int body) {
-    const pir_stood *stood = body ? &job->bodies.q : &job->bodies.p;
-    pir_triple sum;
-    mpz_t den;
-    pir_triple_init(&sum);
-    mpz_init(den);
-    for (int k = 0; k < job->mix.count; k++) {
-        uint32_t i = body ? job->mix.corner[k].q : job->mix.corner[k].p;
-        for (int c = 0; c < 3; c++)
-            mpz_addmul(sum.c[c], job->mix.weight[k], stood->at[i].c[c]);
-    }
-    mpz_mul(den, job->mix.whole, job->bodies.unit);
-    pir_proof_text_point(&job->text, key, &sum, den);
-    pir_triple_finish(&sum);
-    mpz_clear(den);
 }
 
 static void list_mix(struct job *job) {
@@ -135,8 +88,8 @@ static pir_status write_distance(struct job *job) {
     list_mix(job);
     pir_proof_text_begin(&job->text, "distance", &job->bodies);
     pir_proof_text_mix(&job->text, &job->bodies, &job->mix);
-    write_point(job, "point_p", 0);
-    write_point(job, "point_q", 1);
+    pir_proof_text_mix_point(&job->text, "point_p", &job->bodies, &job->mix, false);
+    pir_proof_text_mix_point(&job->text, "point_q", &job->bodies, &job->mix, true);
     pir_proof_text_ratio(&job->text, "distance_squared", num, den);
     mpz_clears(num, den, NULL);
     return right ? PIR_OK : PIR_ERR_ARGUMENT;
@@ -179,7 +132,7 @@ static void write_touching(struct job *job) {
     list_mix(job);
     pir_proof_text_begin(&job->text, "touching", &job->bodies);
     pir_proof_text_mix(&job->text, &job->bodies, &job->mix);
-    write_point(job, "point", 0);
+    pir_proof_text_mix_point(&job->text, "point", &job->bodies, &job->mix, false);
     pir_proof_text_triple(&job->text, "normal", &job->normal);
     pir_proof_text_integer(&job->text, "at", at);
     pir_proof_text_integer(&job->text, "length_squared", square);
@@ -191,7 +144,7 @@ static void write_overlap(struct job *job) {
     list_mix(job);
     pir_proof_text_begin(&job->text, "overlap", &job->bodies);
     pir_proof_text_mix(&job->text, &job->bodies, &job->mix);
-    write_point(job, "point", 0);
+    pir_proof_text_mix_point(&job->text, "point", &job->bodies, &job->mix, false);
 }
 
 static pir_status write_depth(struct job *job) {
@@ -277,11 +230,7 @@ pir_status pir_query_certificate(pir_query *query, const pir_query_input *input,
     pir_triple_init(&job.normal);
     mpz_init(job.slack);
     status = write_answer(&job, query->sum);
-    pir_proof_text_end(&job.text);
-    if (status == PIR_OK)
-        status = pir_proof_text_certificate(&job.text, ret_certificate);
-    if (status != PIR_OK)
-        pir_bytes_finish(&job.text.bytes, &job.text.allocator);
+    status = pir_proof_text_end(&job.text, status, ret_certificate);
     mpz_clear(job.slack);
     pir_triple_finish(&job.normal);
     pir_mix_finish(&job.mix);
@@ -305,7 +254,6 @@ static pir_status write_sum(pir_proof_text *text, pir_stance *bodies, pir_sum *s
     pir_proof_text_count(text, "vertex_count", counts[0]);
     pir_proof_text_count(text, "edge_count", counts[1]);
     pir_proof_text_count(text, "facet_count", counts[2]);
-    pir_proof_text_end(text);
     pir_boundary_finish(&boundary);
     return status;
 }
@@ -321,25 +269,7 @@ pir_status pir_sum_certificate(pir_sum *sum, pir_certificate **ret_certificate) 
         status = pir_stance_make(&bodies, &pairing->allocator, sum, pairing->difference, (pir_vec3){0, 0, 0});
     if (status != PIR_OK)
         return status;
-    status = write_sum(&text, &bodies, sum);
-    if (status == PIR_OK)
-        status = pir_proof_text_certificate(&text, ret_certificate);
-    if (status != PIR_OK)
-        pir_bytes_finish(&text.bytes, &text.allocator);
+    status = pir_proof_text_end(&text, write_sum(&text, &bodies, sum), ret_certificate);
     pir_stance_finish(&bodies);
     return status;
-}
-
-const char *pir_certificate_text(const pir_certificate *certificate, size_t *ret_length) {
-    if (ret_length)
-        *ret_length = certificate->text.bytes.used;
-    return (const char *)certificate->text.bytes.data;
-}
-
-void pir_certificate_destroy(pir_certificate *certificate) {
-    if (!certificate)
-        return;
-    const pir_allocator allocator = certificate->text.allocator;
-    pir_bytes_finish(&certificate->text.bytes, &allocator);
-    PIR_FREE(&allocator, certificate, 1);
 }

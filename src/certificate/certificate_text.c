@@ -6,6 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <pirouette/certificate.h>
+#include <pirouette/exact.h>
+
+struct pir_certificate {
+    pir_proof_text text;
+};
+
 /* Room for `more` bytes at the end, with one for a zero; NULL when out of memory, now or before. */
 static char *room_for(pir_proof_text *text, size_t more) {
     if (text->failed || !pir_bytes_reserve(&text->bytes, &text->allocator, more + 1)) {
@@ -101,21 +108,38 @@ static void put_body(pir_proof_text *text, const char *key, pir_stood *stood) {
     put(text, "\n]");
 }
 
-void pir_proof_text_begin(pir_proof_text *text, const char *claim, pir_stance *bodies) {
+/* The beginning: the kind of proof, the claim, and the pose of P. */
+static void put_head(pir_proof_text *text, const char *kind, const char *claim, const pir_stance *bodies) {
     const pir_quat q = bodies->rotation;
     const pir_vec3 t = bodies->translation;
-    put(text, "{\n\"pirouette_certificate\": 1,\n\"claim\": \"");
+    put(text, "{\n\"");
+    put(text, kind);
+    put(text, "\": 1,\n\"claim\": \"");
     put(text, claim);
     put(text, "\"");
     put_doubles(text, "quat", (const double[4]){q.x, q.y, q.z, q.w}, 4);
     put_doubles(text, "translation", (const double[3]){t.x, t.y, t.z}, 3);
+}
+
+void pir_proof_text_begin(pir_proof_text *text, const char *claim, pir_stance *bodies) {
+    put_head(text, "pirouette_certificate", claim, bodies);
     pir_proof_text_integer(text, "unit", bodies->unit);
     put_body(text, "p", &bodies->p);
     put_body(text, "q", &bodies->q);
 }
 
-void pir_proof_text_end(pir_proof_text *text) {
+pir_status pir_proof_text_end(pir_proof_text *text, pir_status status, pir_certificate **ret_certificate) {
     put(text, "\n}\n");
+    pir_certificate *certificate = NULL;
+    if (status == PIR_OK && !text->failed)
+        certificate = PIR_NEW(&text->allocator, pir_certificate, 1);
+    if (!certificate) {
+        pir_bytes_finish(&text->bytes, &text->allocator);
+        return status == PIR_OK ? PIR_ERR_MEMORY : status;
+    }
+    certificate->text = *text;
+    *ret_certificate = certificate;
+    return PIR_OK;
 }
 
 void pir_proof_text_integer(pir_proof_text *text, const char *key, const mpz_t value) {
@@ -168,6 +192,24 @@ void pir_proof_text_mix(pir_proof_text *text, const pir_stance *bodies, const pi
     put(text, "\n]");
 }
 
+void pir_proof_text_mix_point(pir_proof_text *text, const char *key, const pir_stance *bodies, const pir_mix *mix,
+                              bool of_q) {
+    const pir_stood *stood = of_q ? &bodies->q : &bodies->p;
+    pir_triple sum;
+    mpz_t den;
+    pir_triple_init(&sum);
+    mpz_init(den);
+    for (int k = 0; k < mix->count; k++) {
+        uint32_t i = of_q ? mix->corner[k].q : mix->corner[k].p;
+        for (int c = 0; c < 3; c++)
+            mpz_addmul(sum.c[c], mix->weight[k], stood->at[i].c[c]);
+    }
+    mpz_mul(den, mix->whole, bodies->unit);
+    pir_proof_text_point(text, key, &sum, den);
+    pir_triple_finish(&sum);
+    mpz_clear(den);
+}
+
 void pir_proof_text_boundary(pir_proof_text *text, const pir_boundary *boundary) {
     uint32_t vertices = pir_mesh_vertex_count(boundary->mesh), facets = pir_mesh_facet_count(boundary->mesh);
     put_key(text, "vertices");
@@ -201,4 +243,100 @@ void pir_proof_text_put_count(pir_proof_text *text, uint32_t value) {
 
 void pir_proof_text_put_ratio(pir_proof_text *text, const mpz_t num, const mpz_t den) {
     put_ratio(text, num, den);
+}
+
+/* --- of solids --- */
+
+/* The vertices of a piece in the frame of its model. */
+static void put_vertices(pir_proof_text *text, const pir_polytope *piece) {
+    mpq_t v[3];
+    mpq_inits(v[0], v[1], v[2], NULL);
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(piece); i++) {
+        pir_polytope_vertex_exact(piece, i, v);
+        put(text, i == 0 ? "" : ", ");
+        for (int k = 0; k < 3; k++) {
+            put(text, k == 0 ? "[" : ", ");
+            put_rational(text, v[k]);
+        }
+        put(text, "]");
+    }
+    mpq_clears(v[0], v[1], v[2], NULL);
+}
+
+static void put_facets(pir_proof_text *text, const pir_polytope *piece) {
+    uint32_t most = 0;
+    for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
+        const uint32_t size = pir_polytope_facet_size(piece, f);
+        most = size > most ? size : most;
+    }
+    uint32_t *corner = PIR_NEW(&text->allocator, uint32_t, most);
+    text->failed |= !corner;
+    for (uint32_t f = 0; corner && f < pir_polytope_facet_count(piece); f++) {
+        pir_polytope_facet(piece, f, corner);
+        put(text, f == 0 ? "" : ", ");
+        for (uint32_t k = 0; k < pir_polytope_facet_size(piece, f); k++) {
+            put(text, k == 0 ? "[" : ", ");
+            put_count(text, corner[k]);
+        }
+        put(text, "]");
+    }
+    PIR_FREE(&text->allocator, corner, most);
+}
+
+void pir_proof_text_begin_solids(pir_proof_text *text, const char *claim, const pir_stance *bodies,
+                                 const pir_stance_body body[2]) {
+    put_head(text, "pirouette_solids", claim, bodies);
+    for (int k = 0; k < 2; k++) {
+        put_key(text, k == 0 ? "p" : "q");
+        for (uint32_t i = 0; i < body[k].count; i++) {
+            put(text, i == 0 ? "[\n{\"points\": [" : ",\n{\"points\": [");
+            put_vertices(text, body[k].part[i]);
+            put(text, "], \"facets\": [");
+            put_facets(text, body[k].part[i]);
+            put(text, "]}");
+        }
+        put(text, "\n]");
+    }
+}
+
+static void put_parts(pir_proof_text *text, pir_vertex_pair part) {
+    put_count(text, part.p);
+    put(text, ", ");
+    put_count(text, part.q);
+}
+
+void pir_proof_text_planes(pir_proof_text *text, const pir_part_plane *plane, size_t count) {
+    put_key(text, "planes");
+    put(text, "[");
+    for (size_t i = 0; i < count; i++) {
+        put(text, i == 0 ? "\n[" : ",\n[");
+        put_parts(text, plane[i].part);
+        put(text, ", ");
+        put_triple(text, &plane[i].normal);
+        put(text, "]");
+    }
+    put(text, "\n]");
+}
+
+void pir_proof_text_parts(pir_proof_text *text, pir_vertex_pair part) {
+    put_key(text, "pieces");
+    put(text, "[");
+    put_parts(text, part);
+    put(text, "]");
+}
+
+/* --- what the caller has of it --- */
+
+const char *pir_certificate_text(const pir_certificate *certificate, size_t *ret_length) {
+    if (ret_length)
+        *ret_length = certificate->text.bytes.used;
+    return (const char *)certificate->text.bytes.data;
+}
+
+void pir_certificate_destroy(pir_certificate *certificate) {
+    if (!certificate)
+        return;
+    const pir_allocator allocator = certificate->text.allocator;
+    pir_bytes_finish(&certificate->text.bytes, &allocator);
+    PIR_FREE(&allocator, certificate, 1);
 }

@@ -22,7 +22,9 @@ typedef struct pir_proof_text {
  * their numbers here.
  */
 void pir_proof_text_begin(pir_proof_text *text, const char *claim, pir_stance *bodies);
-void pir_proof_text_end(pir_proof_text *text);
+
+/* Ends it, and makes a certificate of it where the status so far is good; frees it where that is not, or fails. */
+pir_status pir_proof_text_end(pir_proof_text *text, pir_status status, pir_certificate **ret_certificate);
 
 /* An integer, num / den in lowest terms, and so many of them, den being common. */
 void pir_proof_text_integer(pir_proof_text *text, const char *key, const mpz_t value);
@@ -36,6 +38,10 @@ void pir_proof_text_triple(pir_proof_text *text, const char *key, const pir_trip
 /* Corners with their weights as fractions, 1 in all: "pairs". */
 void pir_proof_text_mix(pir_proof_text *text, const pir_stance *bodies, const pir_mix *mix);
 
+/* The point of P, or of Q, that a mix is at. */
+void pir_proof_text_mix_point(pir_proof_text *text, const char *key, const pir_stance *bodies, const pir_mix *mix,
+                              bool of_q);
+
 /* Vertices as corners, facets as cycles of those: "vertices", "facets". */
 void pir_proof_text_boundary(pir_proof_text *text, const pir_boundary *boundary);
 
@@ -44,7 +50,21 @@ void pir_proof_text_put(pir_proof_text *text, const char *string);
 void pir_proof_text_put_count(pir_proof_text *text, uint32_t value);
 void pir_proof_text_put_ratio(pir_proof_text *text, const mpz_t num, const mpz_t den);
 
-/* The certificate that has this text, which is its own then; PIR_ERR_MEMORY where memory ran out meanwhile. */
-pir_status pir_proof_text_certificate(const pir_proof_text *text, pir_certificate **ret_certificate);
+/* --- of solids --- */
+
+/* Begins with what proofs of solids have: the claim, the pose, and all pieces of both in the frames of their models. */
+void pir_proof_text_begin_solids(pir_proof_text *text, const char *claim, const pir_stance *bodies,
+                                 const pir_stance_body body[2]);
+
+/* A plane between a piece of P and one of Q; its normal points to P's. */
+typedef struct pir_part_plane {
+    pir_vertex_pair part; /* the numbers of the pieces */
+    pir_triple normal;
+} pir_part_plane;
+
+void pir_proof_text_planes(pir_proof_text *text, const pir_part_plane *plane, size_t count);
+
+/* Which pieces the corners of a mix are of: "pieces". */
+void pir_proof_text_parts(pir_proof_text *text, pir_vertex_pair part);
 
 #endif

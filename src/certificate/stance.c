@@ -11,6 +11,9 @@
 
 #include <pirouette/exact.h>
 
+/* Numbers of answers agree within this, relative to the largest coordinate: ten times what they promise. */
+#define NUMBER_ERROR 1e-11
+
 void pir_triple_init(pir_triple *triple) {
     mpz_inits(triple->c[0], triple->c[1], triple->c[2], NULL);
 }
@@ -22,6 +25,22 @@ void pir_triple_finish(pir_triple *triple) {
 void pir_triple_subtract(pir_triple *to, const pir_triple *a, const pir_triple *b) {
     for (int k = 0; k < 3; k++)
         mpz_sub(to->c[k], a->c[k], b->c[k]);
+}
+
+void pir_triple_negate(pir_triple *triple) {
+    for (int k = 0; k < 3; k++)
+        mpz_neg(triple->c[k], triple->c[k]);
+}
+
+void pir_triple_strip(pir_triple *triple) {
+    mpz_t common;
+    mpz_init(common);
+    for (int k = 0; k < 3; k++)
+        mpz_gcd(common, common, triple->c[k]);
+    if (mpz_sgn(common) > 0)
+        for (int k = 0; k < 3; k++)
+            mpz_divexact(triple->c[k], triple->c[k], common);
+    mpz_clear(common);
 }
 
 void pir_triple_cross(pir_triple *to, const pir_triple *a, const pir_triple *b) {
@@ -110,9 +129,11 @@ static void turn_set(struct turn *turn, pir_quat given) {
 
 /* --- bodies --- */
 
-/* Zeros for the vertices of a polytope; false when out of memory. */
-static bool stood_init(pir_stood *stood, const pir_allocator *allocator, const pir_polytope *polytope) {
-    uint32_t count = pir_polytope_vertex_count(polytope);
+/* Zeros for the vertices of all parts; false when out of memory. */
+static bool stood_init(pir_stood *stood, const pir_allocator *allocator, const pir_stance_body *body) {
+    uint32_t count = 0;
+    for (uint32_t part = 0; part < body->count; part++)
+        count += pir_polytope_vertex_count(body->part[part]);
     stood->at = PIR_NEW(allocator, pir_triple, count);
     stood->listed = PIR_NEW(allocator, uint32_t, count);
     if (stood->at && stood->listed)
@@ -129,24 +150,42 @@ static bool stood_init(pir_stood *stood, const pir_allocator *allocator, const p
     return false;
 }
 
-/* The vertices as integers of 1 / *den, the least common denominator. */
-static void stood_fill(pir_stood *stood, const pir_polytope *polytope, mpz_t den) {
+/* Multiplies `den` to a denominator of a part's vertices, too. */
+static void add_denominators(const pir_polytope *part, mpz_t den) {
     mpq_t v[3];
     mpq_inits(v[0], v[1], v[2], NULL);
-    mpz_set_ui(den, 1);
-    for (uint32_t i = 0; i < stood->count; i++) {
-        pir_polytope_vertex_exact(polytope, i, v);
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(part); i++) {
+        pir_polytope_vertex_exact(part, i, v);
         for (int k = 0; k < 3; k++)
             mpz_lcm(den, den, mpq_denref(v[k]));
     }
-    for (uint32_t i = 0; i < stood->count; i++) {
-        pir_polytope_vertex_exact(polytope, i, v);
+    mpq_clears(v[0], v[1], v[2], NULL);
+}
+
+/* A part's vertices as integers of 1 / den. */
+static void fill_part(pir_triple *at, const pir_polytope *part, const mpz_t den) {
+    mpq_t v[3];
+    mpq_inits(v[0], v[1], v[2], NULL);
+    for (uint32_t i = 0; i < pir_polytope_vertex_count(part); i++) {
+        pir_polytope_vertex_exact(part, i, v);
         for (int k = 0; k < 3; k++) {
-            mpz_divexact(stood->at[i].c[k], den, mpq_denref(v[k]));
-            mpz_mul(stood->at[i].c[k], stood->at[i].c[k], mpq_numref(v[k]));
+            mpz_divexact(at[i].c[k], den, mpq_denref(v[k]));
+            mpz_mul(at[i].c[k], at[i].c[k], mpq_numref(v[k]));
         }
     }
     mpq_clears(v[0], v[1], v[2], NULL);
+}
+
+/* The vertices as integers of 1 / *den, the least common denominator. */
+static void stood_fill(pir_stood *stood, const pir_stance_body *body, mpz_t den) {
+    pir_triple *at = stood->at;
+    mpz_set_ui(den, 1);
+    for (uint32_t part = 0; part < body->count; part++)
+        add_denominators(body->part[part], den);
+    for (uint32_t part = 0; part < body->count; part++) {
+        fill_part(at, body->part[part], den);
+        at += pir_polytope_vertex_count(body->part[part]);
+    }
 }
 
 /* Multiplies all coordinates. */
@@ -197,8 +236,8 @@ static void move(pir_stance *bodies, mpq_t t[3]) {
     mpz_clear(step);
 }
 
-/* Turns and moves P, and brings both bodies to one unit. */
-static void stand(pir_stance *bodies, const pir_polytope *p, const pir_polytope *q) {
+/* Turns and moves P, which may be given reflected, and brings both bodies to one unit. */
+static void stand(pir_stance *bodies, const pir_stance_body body[2], bool is_reflected) {
     struct turn turn;
     mpz_t den_p, den_q, by;
     mpq_t t[3];
@@ -206,8 +245,8 @@ static void stand(pir_stance *bodies, const pir_polytope *p, const pir_polytope 
     turn_init(&turn);
     mpz_inits(den_p, den_q, by, NULL);
     turn_set(&turn, bodies->rotation);
-    stood_fill(&bodies->p, p, den_p);
-    stood_fill(&bodies->q, q, den_q);
+    stood_fill(&bodies->p, &body[0], den_p);
+    stood_fill(&bodies->q, &body[1], den_q);
     stood_turn(&bodies->p, &turn);
     mpz_mul(den_p, den_p, turn.norm);
     mpz_lcm(bodies->unit, den_p, den_q);
@@ -217,7 +256,7 @@ static void stand(pir_stance *bodies, const pir_polytope *p, const pir_polytope 
         mpz_lcm(bodies->unit, bodies->unit, mpq_denref(t[k]));
     }
     mpz_divexact(by, bodies->unit, den_p);
-    if (bodies->difference) // the sum holds P reflected
+    if (is_reflected)
         mpz_neg(by, by);
     stood_scale(&bodies->p, by);
     mpz_divexact(by, bodies->unit, den_q);
@@ -234,18 +273,30 @@ static void stand(pir_stance *bodies, const pir_polytope *p, const pir_polytope 
     turn_finish(&turn);
 }
 
+static pir_status make(pir_stance *bodies, const pir_stance_body body[2], bool is_reflected) {
+    mpz_init_set_ui(bodies->unit, 1);
+    if (!stood_init(&bodies->p, &bodies->allocator, &body[0]) ||
+        !stood_init(&bodies->q, &bodies->allocator, &body[1])) {
+        pir_stance_finish(bodies);
+        return PIR_ERR_MEMORY;
+    }
+    stand(bodies, body, is_reflected);
+    return PIR_OK;
+}
+
 pir_status pir_stance_make(pir_stance *bodies, const pir_allocator *allocator, const pir_sum *sum, bool difference,
                            pir_vec3 translation) {
     const pir_polytope *p = pir_sum_p(sum), *q = pir_sum_q(sum);
     *bodies = (pir_stance){.allocator = *allocator, .rotation = pir_sum_rotation(sum), .translation = translation};
     bodies->difference = difference;
-    mpz_init_set_ui(bodies->unit, 1);
-    if (!stood_init(&bodies->p, allocator, p) || !stood_init(&bodies->q, allocator, q)) {
-        pir_stance_finish(bodies);
-        return PIR_ERR_MEMORY;
-    }
-    stand(bodies, p, q);
-    return PIR_OK;
+    return make(bodies, (const pir_stance_body[]){{&p, 1}, {&q, 1}}, difference); // which holds P reflected
+}
+
+pir_status pir_stance_make_parts(pir_stance *bodies, const pir_allocator *allocator, const pir_stance_body body[2],
+                                 pir_pose pose_p) {
+    *bodies = (pir_stance){.allocator = *allocator, .rotation = pose_p.rotation, .translation = pose_p.translation};
+    bodies->difference = true;
+    return make(bodies, body, false);
 }
 
 static void stood_finish(pir_stood *stood, const pir_allocator *allocator) {
@@ -322,4 +373,18 @@ double pir_stance_reach(const pir_stance *bodies) {
             }
     }
     return most;
+}
+
+bool pir_stance_is_length(const pir_stance *bodies, double told, const mpz_t num, const mpz_t den) {
+    long exponent;
+    double square = pir_ratio_split(num, den, &exponent);
+    if (exponent % 2 != 0) {
+        square *= 2;
+        exponent--;
+    }
+    double length = ldexp(sqrt(square), (int)(exponent / 2));
+    const pir_vec3 t = bodies->translation;
+    double reach = length + pir_stance_reach(bodies) + fabs(t.x) + fabs(t.y) + fabs(t.z);
+    double off = fabs(fabs(told) - length);
+    return off <= NUMBER_ERROR * reach || (isinf(reach) && !isnan(told));
 }

@@ -11,6 +11,7 @@
 #define PIR_CERTIFICATE_STANCE_H
 
 #include <pirouette/polytope.h>
+#include <pirouette/pose.h>
 #include <pirouette/sum.h>
 
 #include <gmp.h>
@@ -28,6 +29,10 @@ void pir_triple_subtract(pir_triple *to, const pir_triple *a, const pir_triple *
 
 /* to = a × b; `to` is neither. */
 void pir_triple_cross(pir_triple *to, const pir_triple *a, const pir_triple *b);
+void pir_triple_negate(pir_triple *triple);
+
+/* Divides by what the three have in common, unless all are 0. */
+void pir_triple_strip(pir_triple *triple);
 void pir_triple_dot(mpz_t to, const pir_triple *a, const pir_triple *b);
 
 /* One body's vertices. */
@@ -48,6 +53,12 @@ typedef struct pir_stance {
     bool difference;
 } pir_stance;
 
+/* The polytopes that a body is made of, one at least. */
+typedef struct pir_stance_body {
+    const pir_polytope *const *part;
+    uint32_t count;
+} pir_stance_body;
+
 /* A vertex of P and one of Q. */
 typedef struct pir_vertex_pair {
     uint32_t p, q;
@@ -59,6 +70,13 @@ typedef struct pir_vertex_pair {
  */
 pir_status pir_stance_make(pir_stance *bodies, const pir_allocator *allocator, const pir_sum *sum, bool difference,
                            pir_vec3 translation);
+
+/*
+ * Makes P and Q, of parts, each with the vertices of its parts in a row, P turned, then moved. Otherwise as above; the
+ * difference is theirs.
+ */
+pir_status pir_stance_make_parts(pir_stance *bodies, const pir_allocator *allocator, const pir_stance_body body[2],
+                                 pir_pose pose_p);
 void pir_stance_finish(pir_stance *bodies);
 
 /* The vertex of the difference or sum at a corner. */
@@ -75,6 +93,9 @@ void pir_stood_range(const pir_stood *stood, const pir_triple *way, mpz_ptr ret_
 
 /* The greatest magnitude of a coordinate, in doubles; infinite where it is beyond them. */
 double pir_stance_reach(const pir_stance *bodies);
+
+/* Whether √(num / den), as a double, is a number that an answer tells, but for rounding. */
+bool pir_stance_is_length(const pir_stance *bodies, double told, const mpz_t num, const mpz_t den);
 
 /* num / den as a double of the exponent *ret_exponent; den is above 0. */
 double pir_ratio_split(const mpz_t num, const mpz_t den, long *ret_exponent);

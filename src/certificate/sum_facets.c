@@ -31,17 +31,6 @@ static void vertex_at(const pir_boundary *boundary, uint32_t vertex, pir_triple 
     pir_stance_vertex(boundary->bodies, pir_boundary_corner(boundary, vertex), to);
 }
 
-static void strip(pir_triple *v) {
-    mpz_t common;
-    mpz_init(common);
-    for (int k = 0; k < 3; k++)
-        mpz_gcd(common, common, v->c[k]);
-    if (mpz_sgn(common) > 0)
-        for (int k = 0; k < 3; k++)
-            mpz_divexact(v->c[k], v->c[k], common);
-    mpz_clear(common);
-}
-
 /* to = (b − a) × (c − a). */
 static void plane_of(const pir_triple *a, const pir_triple *b, const pir_triple *c, pir_triple *to) {
     pir_triple e, f;
@@ -63,7 +52,7 @@ void pir_boundary_normal(const pir_boundary *boundary, uint32_t facet, pir_tripl
         vertex_at(boundary, corner[k], &v[k]);
     }
     plane_of(&v[0], &v[1], &v[2], normal);
-    strip(normal);
+    pir_triple_strip(normal);
     for (int k = 0; k < 3; k++)
         pir_triple_finish(&v[k]);
 }

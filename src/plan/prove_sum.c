@@ -222,7 +222,6 @@ static pir_status put_all(struct sum_proof *job) {
     put_doubles(&job->text, ",\n\"high\": ", job->tree.high, 3);
     put_tree(job);
     put_mesh(job);
-    pir_proof_text_end(&job->text);
     return job->space.status;
 }
 
@@ -265,12 +264,8 @@ pir_status pir_solid_sum_certificate(pir_solid_sum *sum, pir_certificate **ret_c
         return pir_fail(report, PIR_ERR_ARGUMENT, "certificate: there is none of solids that are scaled");
     struct sum_proof job = {.sum = sum, .text = {sum->allocator, {0}, false}};
     pir_plan_space_init(&job.space, &sum->allocator, sum->options.memory);
-    pir_status status = make_proof(&job, report);
-    if (status == PIR_OK)
-        status = pir_proof_text_certificate(&job.text, ret_certificate);
+    pir_status status = pir_proof_text_end(&job.text, make_proof(&job, report), ret_certificate);
     status = status == PIR_OK ? PIR_OK : tell(&job, status, report);
-    if (status != PIR_OK)
-        pir_bytes_finish(&job.text.bytes, &job.text.allocator);
     pir_mesh_destroy(job.mesh);
     pir_plan_tree_finish(&job.space, &job.tree);
     pir_plan_sums_finish(&job.space, &job.sums);
