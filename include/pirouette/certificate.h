@@ -14,6 +14,8 @@
  * - "sum": the same of a sum; "difference": of a difference.
  *
  * That of a sum of solids has another form, which `check/solid_sum.py` reads (docs/proofs.md).
+ * Of two solids in convex pieces `check/solids.py` takes the certificates: "apart", "distance", "touching" and
+ * "overlap", by a plane for each pair of pieces, or a common inner point of one pair.
  *
  * Every number is found anew, by integers alone. An answer that it contradicts is refused.
  */
@@ -23,6 +25,7 @@
 #include <pirouette/base.h>
 #include <pirouette/query.h>
 #include <pirouette/solid.h>
+#include <pirouette/solid_query.h>
 #include <pirouette/sum.h>
 
 #ifdef __cplusplus
@@ -58,14 +61,35 @@ PIR_API pir_status pir_query_certificate(pir_query *query, const pir_query_input
                                          pir_proven proven, pir_certificate **ret_certificate);
 
 /**
+ * The certificate of an answer of pir_solid_query_distance, with the same input. Pieces have to be those of
+ * pir_solid_decompose without a tolerance or a number: the checker holds that they do not overlap, and are the solids.
+ * It lasts without the query, and is of its allocator; integers as above. The query is used, and so belongs to this
+ * thread meanwhile.
+ *
+ * input   where P is; Q is not posed. Radii must be 0; cutoff and margin do not count.
+ * answer  `result` of a pir_solid_distance: its state must be the true one; its distance as above.
+ * proven  what of it. Of solids that overlap it is the state alone: their depth has no certificate.
+ *
+ * Cost: for each pair of a piece of P and one of Q, near or far, O(steps · (p + q)) for their p and q vertices, and
+ * O(size of their sum) where they share a point; in exact arithmetic. The text has a plane for each pair, but for
+ * solids that overlap.
+ *
+ * Errors: PIR_ERR_ARGUMENT (NULL, an answer that is not right, radii, a pose of Q), PIR_ERR_NOT_FINITE,
+ * PIR_ERR_ZERO_QUATERNION, PIR_ERR_LIMIT (as of pir_sum_create and pir_sum_mesh), PIR_ERR_MEMORY.
+ */
+PIR_API pir_status pir_solid_query_certificate(pir_solid_query *query, const pir_pair_input *input,
+                                               const pir_query_result *answer, pir_proven proven,
+                                               pir_certificate **ret_certificate);
+
+/**
  * The certificate of a sum or difference, as pir_sum_mesh has it: its vertices as pairs, its facets as cycles of them.
- * Otherwise as above.
+ * Otherwise as of pir_query_certificate.
  *
  * sum  of dimension 2 or 3.
  *
  * Cost: O(size of the sum).
  *
- * Errors: as above, and PIR_ERR_ARGUMENT for a sum that is a point or a segment.
+ * Errors: as of pir_query_certificate, and PIR_ERR_ARGUMENT for a sum that is a point or a segment.
  */
 PIR_API pir_status pir_sum_certificate(pir_sum *sum, pir_certificate **ret_certificate);
 
