@@ -57,8 +57,8 @@ static bool read_radius(const struct args *args, const char *name, double *radiu
 
 /* Reads what --certificate is to prove, after checks. */
 static bool read_proof(const struct args *args, int *proven) {
-    // with these the bodies are not the hulls of their models, or there are many answers
-    static const char *const others[] = {"--solid", "--merge", "--radius-p", "--radius-q", "--batch", NULL};
+    // with these the bodies are not those of the models, or there are many answers
+    static const char *const others[] = {"--merge", "--radius-p", "--radius-q", "--batch", NULL};
     static const char *const words[] = {"state", "number", NULL};
     *proven = PIR_PROVEN_NUMBER;
     if (args_has(args, "--prove") && !args_has(args, "--certificate")) {
@@ -253,7 +253,8 @@ SUBCOMMAND(query) {
     if (!read_request(args, &request))
         return EXIT_BAD_INPUT;
     if (args_has(args, "--solid"))
-        return solid_query(args, request.rotation, &request.input, request.casts ? &request.motion : NULL);
+        return solid_query(args, &request.input, request.rotation, request.casts ? &request.motion : NULL,
+                           request.proven);
     int result = EXIT_BAD_INPUT;
     pir_sum *sum = NULL;
     pir_query *query = NULL;

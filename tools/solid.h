@@ -18,8 +18,9 @@
 
 pir_solid *solid_load(const struct args *args, size_t index);
 
-/* query --solid: what is asked, and the motion of a cast or NULL. */
-int solid_query(const struct args *args, pir_quat rotation, const pir_query_input *input, const pir_vec3 *motion);
+/* query --solid: what is asked, the motion of a cast or NULL, and what of the answer --certificate is to prove. */
+int solid_query(const struct args *args, const pir_query_input *input, pir_quat rotation, const pir_vec3 *motion,
+                int proven);
 
 /* info --solid and sum --solid. */
 int solid_info(const struct args *args);
