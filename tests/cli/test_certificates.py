@@ -14,6 +14,30 @@ FRAME = ("OFF\n16 16 0\n" + "".join(f"{x} {y} {z}\n" for z in (0, 1) for n in (0
          "".join(f"4 {a} {b} {b + 8} {a + 8}\n4 {b + 4} {a + 4} {a + 12} {b + 12}\n"
                  f"4 {b} {a} {a + 4} {b + 4}\n4 {a + 8} {b + 8} {b + 12} {a + 12}\n"
                  for a, b in ((0, 1), (1, 2), (2, 3), (3, 0))))
+# an L: all but a corner of a box
+CORNER = """OFF
+12 8 0
+0 0 0
+3 0 0
+3 1 0
+1 1 0
+1 3 0
+0 3 0
+0 0 1
+3 0 1
+3 1 1
+1 1 1
+1 3 1
+0 3 1
+6 5 4 3 2 1 0
+6 6 7 8 9 10 11
+4 0 1 7 6
+4 1 2 8 7
+4 2 3 9 8
+4 3 4 10 9
+4 4 5 11 10
+4 5 0 6 11
+"""
 CUBE = "OFF\n9 0 0\n1 1 1\n1 1 -1\n1 -1 1\n1 -1 -1\n-1 1 1\n-1 1 -1\n-1 -1 1 # a comment\n-1 -1 -1\n1/2 1/3 0\n"
 OBJ = "v 0.1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1e0\nf 1 2 3\nf 1 2 4\n"
 
@@ -72,6 +96,21 @@ class Certificates(CommandTest):
         self.certificate.write_text(text, encoding="ascii")
         self.assertEqual(self.check(self.certificate, checker="solid_sum.py")[0], 0)
 
+    def test_solids_are_proven(self):
+        corner, checker = self.file("corner.off", CORNER), "solids.py"
+        for translate, prove, words in (("2,2,0", "state", "apart"), ("1,1,0", "number", "touching"),
+                                        ("2,2.5,0", "number", "distance, distance_squared 1"),
+                                        ("0.5,0.5,0", "number", "overlap")):
+            self.ask(corner, corner, "--solid", f"--translate={translate}", "--prove", prove)
+            self.assertEqual(self.check(self.certificate, corner, corner, self.answer, checker=checker),
+                             (0, f"proven: {words}\n"))
+            self.assertEqual(self.check(self.certificate, corner, self.tetrahedron, checker=checker)[0], 1)
+        text = self.good("query", corner, corner, "--solid", "--translate=4,0,0", "--certificate=-")
+        self.certificate.write_text(text, encoding="ascii")
+        self.assertEqual(self.check(self.certificate, corner, corner, checker=checker)[0], 0)
+        status, text = self.check(self.certificate, corner, corner, self.answer, checker=checker)
+        self.assertEqual((status, text), (1, "refused: Refused: the answer has another translation\n"))
+
     def test_the_failing_line_is_named(self):
         self.ask(self.cube, self.cube, "--translate=1.5,0,0")
         lines = self.certificate.read_text(encoding="ascii").split("\n")
@@ -114,9 +153,13 @@ class Certificates(CommandTest):
         query = ("query", self.cube, self.cube, "--translate=4,0,0")
         self.bad(*query, "--prove=state", says=("--prove", "--certificate"))
         self.bad(*query, "--certificate", self.certificate, "--prove=all", says="--prove")
-        for option in (("--solid",), ("--merge=0.1",), ("--radius-p=1",), ("--radius-q=1",)):
-            self.bad(*query, "--certificate", self.certificate, *option, says=option[0].split("=")[0])
+        for option in ("--merge=0.1", "--radius-p=1", "--radius-q=1"):
+            self.bad(*query, "--certificate", self.certificate, option, says=option.split("=")[0])
+            self.bad(*query, "--certificate", self.certificate, option, "--solid", says=option.split("=")[0])
         self.bad(*query, "--certificate=-", "--json", says="--certificate")
+        solid = ("query", self.tetrahedron, self.tetrahedron, "--solid", "--translate=4,0,0")
+        self.bad(*solid, "--certificate=-", "--json", says="--certificate")
+        self.bad(*solid, "--certificate", self.path / "none" / "file", says="none")
         self.bad(*query, "--certificate", self.path / "none" / "file", says="none")
         for options in (("--merge=0.1",), ("--solid", "--open"), ("--solid", "--merge=0.1")):
             self.bad("sum", self.cube, self.cube, "--certificate", self.certificate, *options, says=options[-1][:6])
