@@ -11,8 +11,9 @@ that turns by an angle t is off the line between its places by less than t^2/8 o
 the distance of the unit quaternions of both ends, up to sqrt 2, t <= 4 asin(c/2) <= 2.222 c, so t^2/8 < 5/8 c^2.
 
 Numbers: coordinates are integers of 2^-UNIT of the largest one, quaternions of ONE. Each rounding of a coordinate is by
-at most 1. A unit quaternion is off by 2^-58 for each halving, which at most pi/2 of it reach the next ones: by less
-than 2^-52 after 30, so a place is by less than 2^-50 r. Planes are looked for in doubles, and held in integers.
+at most 1: of the corners of both, of a turned one, of a translation, where each halving adds 1/2. A unit quaternion is
+off by 2^-58 for each halving, which at most pi/2 of it reach the next ones: by less than 2^-52 after 30, so a place is
+by less than 2^-50 r. Planes are looked for in doubles, and held in integers.
 """
 from fractions import Fraction
 from itertools import product
@@ -23,7 +24,7 @@ from plan import Refused, cross, dot, need, sub, vector
 ONE, UNIT, FINE = 1 << 60, 60, 1 << 20
 DEEPEST = 30
 MOST_PLANES = 10 ** 6
-ROUNDED = 16  # more than the length of all roundings of a point of each body
+ROUNDED = 64  # more than the length of all roundings of a point of each body
 
 
 def turned(q, v):
