@@ -26,6 +26,7 @@ from bisect import bisect_right
 from itertools import combinations_with_replacement, product
 from math import lcm
 
+import plan
 import turns
 from cells import Cell, integers
 from meets import Pair, Turned, Whole, form
@@ -190,7 +191,7 @@ class Motions(Plan):
             todo += [(bounds[:k] + [half] + bounds[k + 1:], part)
                      for half, part in (((low, middle), below), ((middle, high), above))]
 
-    def check(self, models=()):
+    def check(self):
         self.check_cover()
         whole = Cell.box(self.low, self.high)
         for name, (at, turn) in zip(("start", "other"), self.places):
@@ -212,10 +213,8 @@ def taken(told):
 
 
 def main(path):
-    return turns.main(path, taken)
+    return plan.main(taken, path)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)

@@ -34,9 +34,8 @@ from fractions import Fraction
 from itertools import product
 from math import lcm
 
-import turns
 from flat import Plane, along, is_covered, left, sides, within, without
-from plan import Piece, dot, need, sub, turned, vector
+from plan import Piece, dot, main, need, sub, turned, vector
 
 ONE = 1 << 40  # coordinates of cells are multiples of 2^-40
 FINE = 128  # bits of l, rounded outwards
@@ -236,6 +235,4 @@ class Openings:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    sys.exit(turns.main(sys.argv[1], Openings))
+    sys.exit(main(Openings, sys.argv[1]) if len(sys.argv) == 2 else __doc__)

@@ -242,7 +242,7 @@ class Plan:
                 need(a.shared(b) < (1 if self.open else 3), f"parts {i} and {k} of different sides meet")
         return f"no path: {len(leaves['start'])} and {len(leaves['other'])} free parts of {len(tree)} do not meet"
 
-    def check(self, models):
+    def check(self, models=()):
         if models:
             told = [(place, piece["body"]) for place in ("robot", "obstacles") for piece in self.told[place]]
             bodies = sorted(set(told), key=lambda body: (body[0] != "robot", body[1]))
@@ -252,15 +252,22 @@ class Plan:
         return self.check_path() if self.told["answer"] == "path" else self.check_tree()
 
 
-def main(path, *models):
+def tell(check):
+    """Prints what is proven, or why nothing is. Returns the exit status."""
     try:
-        with open(path, encoding="utf-8") as file:
-            print("proven:", Plan(json.load(file)).check(models))
+        print("proven:", check())
         return 0
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, OSError) as error:
+    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, OSError, RecursionError) as error:
         print(f"refused: {type(error).__name__}: {error}")
         return 1
 
 
+def main(proof, path, *models):
+    def check():
+        with open(path, encoding="utf-8") as file:
+            return proof(json.load(file)).check(*([models] if models else []))
+    return tell(check)
+
+
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]) if len(sys.argv) > 1 else __doc__)
+    sys.exit(main(Plan, *sys.argv[1:]) if len(sys.argv) > 1 else __doc__)

@@ -19,13 +19,12 @@ The sum S is the union of the sums of a piece of P, turned, and one of Q, all of
    free one. So the mesh goes round S once and round nothing else: cavities, bodies in them, tunnels, and what touches
    along an edge or at a corner alone are as they should be, and facets cover the boundary once, as they all add there.
 """
-import json
 import sys
 from collections import Counter
 from fractions import Fraction
 
 from cells import Cell, integers, lowest
-from plan import Model, Piece, cross, dot, half_space, need, sub, turned, vector
+from plan import Model, Piece, cross, dot, half_space, main, need, sub, turned, vector
 
 
 def above(plane, p):
@@ -193,7 +192,7 @@ class SolidSum:
                 return need(sum(counts) == blocked, f"part {node}: the mesh goes round it {sum(counts)} times")
         return need(False, f"part {node}: no ray misses all edges")
 
-    def check(self, models):
+    def check(self, models=()):
         need(len(models) in (0, 2), "two models are wanted, or none")
         counts = self.read_mesh()
         for model, pieces in zip(models, (self.p, self.q)):
@@ -202,15 +201,5 @@ class SolidSum:
         return f"{self.told['claim']}, {counts}"
 
 
-def main(path, *models):
-    try:
-        with open(path, encoding="utf-8") as file:
-            print("proven:", SolidSum(json.load(file)).check(models))
-        return 0
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, OSError) as error:
-        print(f"refused: {type(error).__name__}: {error}")
-        return 1
-
-
 if __name__ == "__main__":
-    sys.exit(main(*sys.argv[1:]) if len(sys.argv) > 1 else __doc__)
+    sys.exit(main(SolidSum, *sys.argv[1:]) if len(sys.argv) > 1 else __doc__)

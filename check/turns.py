@@ -17,12 +17,12 @@ An arc's angle is told by sine and cosine (s, c) of its half, of any length: the
 A normal n turns from n0 to n1 within the triangle of n0, n1 and m, where the tangents of its arc meet: half-spaces of
 these three leave what is in the half-space of n at every angle.
 """
-import json
 import sys
 
+import plan
 from cells import Cell
 from paths import Paths
-from plan import Piece, Plan, Refused, dot, half_space, need, turned, vector
+from plan import Piece, Plan, dot, half_space, need, turned, vector
 
 
 def before(a, b):
@@ -126,17 +126,9 @@ def taken(told):
     return (Paths if "path" in told else Turns)(told)
 
 
-def main(path, proof=taken):
-    try:
-        with open(path, encoding="utf-8") as file:
-            print("proven:", proof(json.load(file)).check())
-        return 0
-    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, OSError) as error:
-        print("refused:", error if isinstance(error, (Refused, OSError)) else f"not a proof: {error!r}")
-        return 1
+def main(path):
+    return plan.main(taken, path)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    sys.exit(main(*sys.argv[1:]))
+    sys.exit(main(sys.argv[1]) if len(sys.argv) == 2 else __doc__)

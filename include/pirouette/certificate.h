@@ -13,7 +13,7 @@
  * - "depth": all facets of the difference, each with a plane that supports both bodies, and their edges closed.
  * - "sum": the same of a sum; "difference": of a difference.
  *
- * That of a sum of solids has another form, which `check/solid_sum.py` reads (docs/proofs.md).
+ * Sums of solids have certificates of another form, which `check/solid_sum.py` reads (docs/proofs.md).
  * Of two solids in convex pieces `check/solids.py` takes the certificates: "apart", "distance", "touching" and
  * "overlap", by a plane for each pair of pieces, or a common inner point of one pair.
  *

@@ -283,20 +283,23 @@ static void put_facets(pir_proof_text *text, const pir_polytope *piece) {
     PIR_FREE(&text->allocator, corner, most);
 }
 
+void pir_proof_text_pieces(pir_proof_text *text, const char *key, const pir_polytope *const *piece, uint32_t count) {
+    put_key(text, key);
+    for (uint32_t i = 0; i < count; i++) {
+        put(text, i == 0 ? "[\n{\"points\": [" : ",\n{\"points\": [");
+        put_vertices(text, piece[i]);
+        put(text, "], \"facets\": [");
+        put_facets(text, piece[i]);
+        put(text, "]}");
+    }
+    put(text, "\n]");
+}
+
 void pir_proof_text_begin_solids(pir_proof_text *text, const char *claim, const pir_stance *bodies,
                                  const pir_stance_body body[2]) {
     put_head(text, "pirouette_solids", claim, bodies);
-    for (int k = 0; k < 2; k++) {
-        put_key(text, k == 0 ? "p" : "q");
-        for (uint32_t i = 0; i < body[k].count; i++) {
-            put(text, i == 0 ? "[\n{\"points\": [" : ",\n{\"points\": [");
-            put_vertices(text, body[k].part[i]);
-            put(text, "], \"facets\": [");
-            put_facets(text, body[k].part[i]);
-            put(text, "]}");
-        }
-        put(text, "\n]");
-    }
+    for (int k = 0; k < 2; k++)
+        pir_proof_text_pieces(text, k == 0 ? "p" : "q", body[k].part, body[k].count);
 }
 
 static void put_parts(pir_proof_text *text, pir_vertex_pair part) {

@@ -56,6 +56,9 @@ void pir_proof_text_put_ratio(pir_proof_text *text, const mpz_t num, const mpz_t
 void pir_proof_text_begin_solids(pir_proof_text *text, const char *claim, const pir_stance *bodies,
                                  const pir_stance_body body[2]);
 
+/* Convex pieces in the frame of their model: points, and facets as cycles of their numbers. */
+void pir_proof_text_pieces(pir_proof_text *text, const char *key, const pir_polytope *const *piece, uint32_t count);
+
 /* A plane between a piece of P and one of Q; its normal points to P's. */
 typedef struct pir_part_plane {
     pir_vertex_pair part; /* the numbers of the pieces */

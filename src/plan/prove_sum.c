@@ -108,44 +108,6 @@ static void put_corner(pir_proof_text *text, uint32_t facet, uint32_t place, uin
     pir_proof_text_put_count(text, corner);
 }
 
-static void put_piece(pir_proof_text *text, const pir_polytope *piece, uint32_t *corner) {
-    mpq_t x[3];
-    mpq_inits(x[0], x[1], x[2], NULL);
-    pir_proof_text_put(text, "{\"points\": [");
-    for (uint32_t v = 0; v < pir_polytope_vertex_count(piece); v++) {
-        pir_polytope_vertex_exact(piece, v, x);
-        pir_proof_text_put(text, v == 0 ? "" : ",\n");
-        put_rationals(text, x, 3);
-    }
-    pir_proof_text_put(text, "],\n\"facets\": ");
-    for (uint32_t f = 0; f < pir_polytope_facet_count(piece); f++) {
-        pir_polytope_facet(piece, f, corner);
-        for (uint32_t i = 0; i < pir_polytope_facet_size(piece, f); i++)
-            put_corner(text, f, i, corner[i]);
-    }
-    pir_proof_text_put(text, "]]}");
-    mpq_clears(x[0], x[1], x[2], NULL);
-}
-
-static uint32_t most_corners(const pir_plan_pieces *pieces) {
-    uint32_t most = 1;
-    for (uint32_t i = 0; i < pieces->count; i++)
-        most = pir_polytope_vertex_count(pieces->at[i]) > most ? pir_polytope_vertex_count(pieces->at[i]) : most;
-    return most;
-}
-
-static void put_pieces(struct sum_proof *job, const char *key, const pir_plan_pieces *pieces) {
-    const uint32_t most = most_corners(pieces);
-    uint32_t *corner = pir_plan_new(&job->space, most, sizeof *corner);
-    pir_proof_text_put(&job->text, key);
-    for (uint32_t i = 0; i < pieces->count && corner; i++) {
-        pir_proof_text_put(&job->text, i == 0 ? "[\n" : ",\n");
-        put_piece(&job->text, pieces->at[i], corner);
-    }
-    pir_proof_text_put(&job->text, "\n]");
-    pir_plan_free(&job->space, corner, most, sizeof *corner);
-}
-
 /* A half-space as a, b, c, d of a·x + b·y + c·z ≤ d. */
 static void put_half(struct sum_proof *job, uint32_t half, mpz_t number, const mpz_t one) {
     const pir_plan_plane *plane = &job->space.plane[half >> 1];
@@ -216,8 +178,9 @@ static pir_status put_all(struct sum_proof *job) {
     pir_proof_text_put(&job->text, "{\n\"pirouette_solid_sum\": 1,\n\"claim\": \"");
     pir_proof_text_put(&job->text, job->sum->options.difference ? "difference" : "sum");
     put_doubles(&job->text, "\",\n\"quat\": ", (const double[4]){q.x, q.y, q.z, q.w}, 4);
-    put_pieces(job, ",\n\"p\": ", &job->piece[0]);
-    put_pieces(job, ",\n\"q\": ", &job->piece[1]);
+    for (int k = 0; k < 2; k++)
+        pir_proof_text_pieces(&job->text, k == 0 ? "p" : "q", (const pir_polytope *const *)job->piece[k].at,
+                              job->piece[k].count);
     put_doubles(&job->text, ",\n\"low\": ", job->tree.low, 3);
     put_doubles(&job->text, ",\n\"high\": ", job->tree.high, 3);
     put_tree(job);
