@@ -183,6 +183,7 @@ class Openings:
         need(0 <= told["piece"] < len(bodies[0]), "no such piece of the robot")
         self.piece, self.point = bodies[0][told["piece"]], vector(told["point"])
         need(all(dot(n, self.point) < d for n, d in self.piece.planes), "the point is not inside the piece")
+        need(told.get("shrink", 0) < 1000, "a piece that is smaller by more than it may be")
         part, self.room = Fraction(1, 1 << told.get("shrink", 0)), vector([told.get("room", "0")], 1)[0]
         need(self.room >= 0 and (self.room == 0 or all((part * (d - dot(n, self.point))) ** 2 >= self.room ** 2 *
                                                        dot(n, n) for n, d in self.piece.planes)),

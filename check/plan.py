@@ -38,9 +38,15 @@ def cross(a, b):
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
+def rational(text):
+    """A number, or a text "-3/4"; one with a power of ten could be of any length."""
+    need(not isinstance(text, str) or "e" not in text.lower(), "a rational with an exponent")
+    return Fraction(text)
+
+
 def vector(texts, count=3):
     need(isinstance(texts, list) and len(texts) == count, "a vector has another length")
-    return tuple(Fraction(text) for text in texts)
+    return tuple(map(rational, texts))
 
 
 def half_space(texts):

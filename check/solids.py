@@ -20,7 +20,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import lcm
 
-from plan import Model, Piece, cross, dot, need, sub, tell, turned, vector
+from plan import Model, Piece, cross, dot, need, rational, sub, tell, turned, vector
 
 getattr(sys, "set_int_max_str_digits", int)(0)  # numbers of any length, where Python has a limit
 COMMON = {"pirouette_solids", "claim", "quat", "translation", "p", "q"}
@@ -75,7 +75,7 @@ class Proof:
         p, q = self.body[0][i], self.body[1][k]
         for a, b, weight in self.told["pairs"]:
             need(is_number_of(a, p) and is_number_of(b, q), "a pair of no vertices")
-            weights.append(Fraction(weight))
+            weights.append(rational(weight))
             of[0].append(p[a])
             of[1].append(q[b])
             differences.append(sub(q[b], p[a]))
@@ -100,7 +100,7 @@ class Proof:
             square = dot(z, z)  # in units
         if self.claim == "distance":
             need(square > 0, "the two points are one")
-            need(Fraction(self.told["distance_squared"]) == Fraction(square) / self.unit ** 2, "another distance")
+            need(rational(self.told["distance_squared"]) == Fraction(square) / self.unit ** 2, "another distance")
         for i, k, n, gap in self.gaps():
             need(gap >= 0 if self.claim == "touching" else gap > 0, f"no plane parts pieces {i} and {k}")
             need(gap * gap >= square * dot(n, n), f"pieces {i} and {k} may be nearer")

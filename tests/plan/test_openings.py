@@ -566,6 +566,10 @@ def less_smaller(told, random_):
     told["shrink"] += random_.randrange(1, 9)
 
 
+def far_smaller(told, random_):
+    told["shrink"] = 10 ** random_.randrange(10, 20)
+
+
 def no_room(told, random_):
     del told["room"]
 
@@ -642,7 +646,7 @@ def main(program, folder):
 
     def some(lies):
         return random_.sample(lies, min(4 * cases, len(lies)))
-    count = hold_lies(written, some(LIES) + [more_room, less_smaller, no_room], random_, 1, openings)
+    count = hold_lies(written, some(LIES) + [more_room, less_smaller, far_smaller, no_room], random_, 1, openings)
     print(f"{count} lies about what the library writes are refused")
     count = hold_lies(round_, LIES, random_, cases, openings)
     count += hold_lies(bent, some(LIES) + [parts_parted], random_, max(1, cases // 8), openings)

@@ -166,7 +166,8 @@ def zero_quaternion(told, random_):
 
 
 def no_number(told, random_):
-    random_.choice(told["path"])["at"][random_.randrange(3)] = random_.choice([float("nan"), float("inf"), "x", None])
+    wrong = random_.choice([float("nan"), float("inf"), "1e999999999", "x", None])
+    random_.choice(told["path"])["at"][random_.randrange(3)] = wrong
 
 
 def narrow_bounds(told, random_):
