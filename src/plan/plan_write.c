@@ -121,8 +121,8 @@ static void put_half(pir_plan_writer *w, uint32_t half, const char *before) {
 
 static void put_node(pir_plan_writer *w, const pir_plan_node *node) {
     if (node->part == PIR_PLAN_FREE) {
-        const bool is_start = w->root[node->by] == w->start;
-        put_text(w, is_start ? "[\"start\"]" : "[\"other\"]");
+        const bool is_start = w->root && w->root[node->by] == w->start;
+        put_text(w, !w->root ? "[\"free\"]" : is_start ? "[\"start\"]" : "[\"other\"]");
     } else if (node->part == PIR_PLAN_SPLIT) {
         put_half(w, node->by, "[\"split\", [");
         fprintf(w->file, "], %u, %u]", node->child[0], node->child[1]);

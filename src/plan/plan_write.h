@@ -16,7 +16,7 @@ typedef struct pir_plan_writer {
     const pir_plan_space *space;
     const pir_plan_sums *sums;
     const pir_plan_tree *tree;
-    const uint32_t *root; /* per free cell; equal to `start` where it is connected with the start */
+    const uint32_t *root; /* per free cell, equal to `start` where it is connected with the start; or NULL: no sides */
     uint32_t start;
     uint32_t *corner; /* room for the corners of a facet */
     mpq_t x;

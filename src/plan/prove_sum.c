@@ -9,11 +9,15 @@
  */
 #include <pirouette/certificate.h>
 
+#include <stdio.h>
+#include <stdlib.h>
+
 #include <pirouette/exact.h>
 
 #include "base/report.h"
 #include "certificate/certificate_text.h"
 #include "plan/divide.h"
+#include "plan/plan_write.h"
 #include "solid/kept/solid_sum.h"
 
 /* The most parts of a certificate: some hundred megabytes. */
@@ -108,44 +112,22 @@ static void put_corner(pir_proof_text *text, uint32_t facet, uint32_t place, uin
     pir_proof_text_put_count(text, corner);
 }
 
-/* A half-space as a, b, c, d of a·x + b·y + c·z ≤ d. */
-static void put_half(struct sum_proof *job, uint32_t half, mpz_t number, const mpz_t one) {
-    const pir_plan_plane *plane = &job->space.plane[half >> 1];
-    for (int k = 0; k < 4; k++) {
-        mpz_set(number, k < 3 ? plane->n[k] : plane->d);
-        if (half & 1)
-            mpz_neg(number, number);
-        pir_proof_text_put(&job->text, k == 0 ? "[" : ", ");
-        pir_proof_text_put_ratio(&job->text, number, one);
-    }
-    pir_proof_text_put(&job->text, "]");
-}
-
+/* The tree as plans write it, by way of malloc's memory. */
 static void put_tree(struct sum_proof *job) {
-    pir_proof_text *text = &job->text;
-    mpz_t number, one;
-    mpz_init(number);
-    mpz_init_set_ui(one, 1);
-    for (uint32_t i = 0; i < job->tree.node_count; i++) {
-        const pir_plan_node *node = &job->tree.node[i];
-        pir_proof_text_put(text, i == 0 ? ",\n\"tree\": [\n" : ",\n");
-        if (node->part == PIR_PLAN_FREE) {
-            pir_proof_text_put(text, "[\"free\"]");
-            continue;
-        }
-        const bool is_split = node->part == PIR_PLAN_SPLIT;
-        pir_proof_text_put(text, is_split ? "[\"split\", " : "[\"blocked\"");
-        if (is_split)
-            put_half(job, node->by, number, one);
-        for (int k = 0; k < 2; k++) {
-            const pir_plan_sum *sum = &job->sums.sum[is_split ? 0 : node->by];
-            pir_proof_text_put(text, ", ");
-            pir_proof_text_put_count(text, is_split ? node->child[k] : k == 0 ? sum->robot : sum->obstacle);
-        }
-        pir_proof_text_put(text, "]");
+    char *tree = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&tree, &size);
+    if (file) {
+        pir_plan_writer w = {.file = file, .space = &job->space, .sums = &job->sums, .tree = &job->tree};
+        mpq_init(w.x);
+        pir_plan_put_tree(&w);
+        mpq_clear(w.x);
     }
-    pir_proof_text_put(text, "\n]");
-    mpz_clears(number, one, NULL);
+    if (file && (ferror(file) | fclose(file)) == 0)
+        pir_proof_text_put(&job->text, tree);
+    else
+        job->text.failed = true;
+    free(tree);
 }
 
 static void put_mesh(struct sum_proof *job) {
